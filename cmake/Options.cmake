@@ -1,0 +1,29 @@
+# Language, warnings and sanitizers: the same for every target.
+option(RASTERTLM_TESTS "Build the tests" ON)
+set(RASTERTLM_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize= (address,undefined or thread)")
+option(RASTERTLM_COVERAGE "Instrument for gcov" OFF)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+add_library(rastertlm_options INTERFACE)
+# Contraction would let a picture depend on -march: products and sums are rounded apart, everywhere.
+target_compile_options(rastertlm_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -ffp-contract=off)
+target_include_directories(rastertlm_options INTERFACE "${CMAKE_SOURCE_DIR}")
+if(RASTERTLM_SANITIZE)
+  target_compile_options(rastertlm_options INTERFACE -fsanitize=${RASTERTLM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(rastertlm_options INTERFACE -fsanitize=${RASTERTLM_SANITIZE})
+endif()
+if(RASTERTLM_COVERAGE)
+  target_compile_options(rastertlm_options INTERFACE --coverage)
+  target_link_options(rastertlm_options INTERFACE --coverage)
+endif()

@@ -1,0 +1,17 @@
+// What a statistic is: a figure of the report with its unit, and where it comes from.
+#pragma once
+
+#include <string>
+
+namespace rastertlm::parameter {
+
+enum class StatisticKind { count, formula, setting };
+
+struct Statistic {
+  std::string name;         // path in report.json: "links[].utilisation"
+  std::string unit;         // "" where it has none
+  StatisticKind kind = StatisticKind::count;
+  std::string description;  // one sentence; a formula says its formula
+};
+
+}  // namespace rastertlm::parameter
