@@ -2,6 +2,7 @@
 option(RASTERTLM_TESTS "Build the tests" ON)
 set(RASTERTLM_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize= (address,undefined or thread)")
 option(RASTERTLM_COVERAGE "Instrument for gcov" OFF)
+option(RASTERTLM_CCACHE "Compile through ccache where it is installed" ON)
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -26,4 +27,15 @@ endif()
 if(RASTERTLM_COVERAGE)
   target_compile_options(rastertlm_options INTERFACE --coverage)
   target_link_options(rastertlm_options INTERFACE --coverage)
+endif()
+
+# ccache takes a file with a precompiled header only if it may ignore the header's time stamps and macros, and if the compiler says
+# in its preprocessed output which one it used.
+if(RASTERTLM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(RASTERTLM_CCACHE_PROGRAM ccache)
+  if(RASTERTLM_CCACHE_PROGRAM)
+    set(CMAKE_CXX_COMPILER_LAUNCHER
+      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${RASTERTLM_CCACHE_PROGRAM}")
+    target_compile_options(rastertlm_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
 endif()
