@@ -1,0 +1,131 @@
+#include "src/reference/pieces.h"
+
+#include <algorithm>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+namespace rastertlm::reference {
+namespace {
+
+using geometry::ClipTriangle;
+using geometry::ClipVertex;
+using geometry::Polygon;
+using geometry::ScreenVertex;
+using geometry::SnappedPoint;
+using geometry::Viewport;
+
+using Vertices = std::vector<std::vector<ClipVertex<double>>>;  // of each object's mesh
+
+Vertices clip_vertices(const scene::Scene& scene, const scene::Pose& pose) {
+  Vertices all(scene.objects.size());
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Mesh& mesh = scene.objects[o].mesh;
+    const glm::dmat4 object_to_clip = pose.eye_to_clip * pose.object_to_eye[o];
+    all[o].resize(mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      all[o][v].position = geometry::transform_point<double>(object_to_clip, mesh.positions[v]);
+      all[o][v].normal = geometry::transform_normal<double>(pose.normal_to_eye[o], mesh.normals[v]);
+    }
+  }
+  return all;
+}
+
+ClipTriangle<double> triangle_of(const std::vector<ClipVertex<double>>& vertices,
+                                 const std::array<std::uint32_t, 3>& indices) {
+  return {vertices[indices[0]], vertices[indices[1]], vertices[indices[2]]};
+}
+
+bool any_needs_guard_band(const scene::Scene& scene, const Vertices& vertices, const RenderOptions& options,
+                          const Viewport& viewport) {
+  for (std::size_t o = 0; o < scene.objects.size(); ++o)
+    for (const auto& indices : scene.objects[o].mesh.triangles)
+      if (geometry::needs_guard_band(triangle_of(vertices[o], indices), options.grids.on_screen, viewport)) return true;
+  return false;
+}
+
+int sign(double x) { return x > 0.0 ? 1 : (x < 0.0 ? -1 : 0); }
+
+class Assembler {
+ public:
+  Assembler(const scene::Pose& pose, const RenderOptions& options, const geometry::FrameGrid& grid,
+            std::vector<Piece>& out)
+      : options_(options),
+        viewport_{options.columns, options.lines},
+        grid_(grid),
+        clip_to_eye_(glm::inverse(pose.eye_to_clip)),
+        out_(out) {}
+
+  void add(const ClipTriangle<double>& triangle, std::uint32_t number, std::uint16_t material, bool two_sided) {
+    const Polygon<double> polygon = geometry::clip_to_frame(triangle, grid_);
+    for (std::size_t k = 1; k + 1 < polygon.size; ++k) {
+      Piece piece;
+      piece.object = number;
+      piece.material = material;
+      const ClipTriangle<double> corners{polygon.corners[0], polygon.corners[k], polygon.corners[k + 1]};
+      if (place(piece, corners, two_sided)) out_.push_back(piece);
+    }
+  }
+
+ private:
+  // False where the piece is not drawn.
+  bool place(Piece& piece, const ClipTriangle<double>& corners, bool two_sided) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      piece.corners[i] = geometry::to_screen(corners[i], viewport_);
+      if (options_.kind == Reference::snapped)
+        piece.snapped[i] = geometry::snap(piece.corners[i], grid_.grid.fraction_bits);
+      if (options_.kind == Reference::true_model) piece.eye_positions[i] = eye_position(corners[i]);
+    }
+    const int area = area_sign(piece);
+    if (area == 0) return false;
+    const bool front = geometry::faces_viewer(area);
+    if (!front && !two_sided) return false;
+    if (front) {  // counter-clockwise as seen: turned round
+      std::swap(piece.corners[1], piece.corners[2]);
+      std::swap(piece.snapped[1], piece.snapped[2]);
+      std::swap(piece.eye_positions[1], piece.eye_positions[2]);
+    } else {
+      for (auto& corner : piece.corners) corner.normal = -corner.normal;
+    }
+    return true;
+  }
+
+  int area_sign(const Piece& piece) const {
+    if (options_.kind == Reference::snapped) {
+      const std::int64_t area = geometry::doubled_area(piece.snapped[0], piece.snapped[1], piece.snapped[2]);
+      return area > 0 ? 1 : (area < 0 ? -1 : 0);
+    }
+    const auto& [a, b, c] = piece.corners;
+    return sign((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
+  }
+
+  glm::dvec3 eye_position(const ClipVertex<double>& vertex) const {
+    const glm::dvec4 p = clip_to_eye_ * glm::dvec4(vertex.position);
+    return glm::dvec3(p) / p.w;
+  }
+
+  const RenderOptions& options_;
+  Viewport viewport_;
+  geometry::FrameGrid grid_;
+  glm::dmat4 clip_to_eye_;
+  std::vector<Piece>& out_;
+};
+
+}  // namespace
+
+Pieces pieces(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options) {
+  const Viewport viewport{options.columns, options.lines};
+  const Vertices vertices = clip_vertices(scene, pose);
+  Pieces result;
+  result.grid = geometry::frame_grid(options.grids, any_needs_guard_band(scene, vertices, options, viewport), viewport);
+  Assembler assembler(pose, options, result.grid, result.list);
+  std::uint32_t number = 0;
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const scene::Mesh& mesh = scene.objects[o].mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      assembler.add(triangle_of(vertices[o], mesh.triangles[t]), ++number, mesh.material[t],
+                    scene.objects[o].two_sided);
+  }
+  return result;
+}
+
+}  // namespace rastertlm::reference
