@@ -1,0 +1,33 @@
+#include "modules/host/assignment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/base/errors.h"
+
+namespace rastertlm::host {
+
+SlotMap assign_objects(std::size_t objects, const HostParameters& parameters) {
+  const auto boards = static_cast<std::size_t>(parameters.computation_units);
+  const auto slots = static_cast<std::size_t>(parameters.processors_per_unit);
+  const std::size_t processors = boards * slots;
+  if (objects > processors && parameters.overflow == Overflow::error)
+    throw InputError({"", 0, "host.processors_per_unit",
+                      fmt::format("the scene has {} objects and the machine {} object processors ({} units of {}); more processors, or host.overflow = \"drop\", "
+                                  "would draw it",
+                                  objects, processors, boards, slots)});
+  const std::size_t placed = std::min(objects, processors);
+  SlotMap map;
+  map.boards.resize(boards);
+  map.dropped = objects - placed;
+  for (std::size_t i = 0; i < placed; ++i) {
+    const bool dealt = parameters.assignment == Assignment::round_robin;
+    const std::size_t board = dealt ? i % boards : i / slots;
+    const std::size_t slot = dealt ? i / boards : i % slots;
+    map.boards[board].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(slot)});
+  }
+  return map;
+}
+
+}  // namespace rastertlm::host

@@ -1,0 +1,50 @@
+// What crosses the links between boards: one transaction a scan line. The payloads derive from tlm_generic_payload because the simple
+// sockets ask for it; its command, address and data mean nothing here.
+#pragma once
+
+#include <cstdint>
+#include <tlm>
+
+#include "src/frame/scan_line.h"
+
+namespace rastertlm::stream {
+
+// A scan line of fragments on its way to the screen. Whoever receives the call may write into the line; it returns to its pool when the
+// initiator's call ends.
+struct FragmentPayload : tlm::tlm_generic_payload {
+  std::uint64_t frame = 0;  // displayed frame
+  std::size_t line = 0;
+  frame::FragmentLine* fragments = nullptr;
+};
+
+// A shaded line. `fragments` is what observers may look at beside the levels.
+struct RgbPayload : tlm::tlm_generic_payload {
+  std::uint64_t frame = 0;
+  std::size_t line = 0;
+  const frame::RgbLine* rgb = nullptr;
+  const frame::FragmentLine* fragments = nullptr;
+};
+
+// The video timing's signals: vertical retrace begins (with or without a copy of the loading RAMs), or a line begins.
+struct SyncPayload : tlm::tlm_generic_payload {
+  enum class Kind { retrace, line };
+  Kind kind = Kind::line;
+  std::uint64_t frame = 0;
+  std::size_t line = 0;
+  bool copy = false;  // retrace: loading RAMs go to backup RAMs, and freshly loaded tables are switched in
+};
+
+template <class Payload>
+struct Protocol {
+  using tlm_payload_type = Payload;
+  using tlm_phase_type = tlm::tlm_phase;
+};
+
+using FragmentProtocol = Protocol<FragmentPayload>;
+using RgbProtocol = Protocol<RgbPayload>;
+using SyncProtocol = Protocol<SyncPayload>;
+
+// A socket's BUSWIDTH has no meaning here: width, clock and latency belong to the Link.
+inline constexpr unsigned kNoBusWidth = 32;
+
+}  // namespace rastertlm::stream

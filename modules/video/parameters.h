@@ -1,0 +1,20 @@
+// What the screen asks of the machine.
+#pragma once
+
+#include <cstdint>
+
+#include "src/parameter/table.h"
+
+namespace rastertlm::video {
+
+struct VideoParameters {
+  std::int64_t columns = 512;
+  std::int64_t lines = 512;
+  double refresh_hz = 50.0;
+  double pixel_clock_ns = 60.0;        // 004, section 5.3.6
+  double vertical_retrace_us = 600.0;  // 004, section 5.3.6
+
+  void declare(parameter::Table& table);
+};
+
+}  // namespace rastertlm::video

@@ -1,0 +1,70 @@
+#include "modules/video/video_timing_module.h"
+
+#include <algorithm>
+
+#include "modules/stream/failure.h"
+#include "modules/stream/simulated_time.h"
+#include "src/base/errors.h"
+
+namespace rastertlm::video {
+
+using stream::SyncPayload;
+
+VideoTimingModule::VideoTimingModule(const sc_core::sc_module_name& name, const Timing& timing, std::size_t lines, std::size_t listeners,
+                                     std::size_t computation_units, std::uint64_t frames, std::uint64_t patience)
+    : sc_module(name), sync("sync", listeners), ready("ready", computation_units), timing_(timing), lines_(lines), frames_(frames), patience_(patience) {
+  SC_HAS_PROCESS(VideoTimingModule);
+  SC_THREAD(run_guarded);
+}
+
+bool VideoTimingModule::everything_ready() const {
+  return tables_ready.read() && std::all_of(ready.begin(), ready.end(), [](const auto& unit) { return unit.read(); });
+}
+
+void VideoTimingModule::announce(SyncPayload::Kind kind, std::uint64_t frame, std::size_t line, bool copy, Cycles since_frame_start) {
+  payload_.kind = kind;
+  payload_.frame = frame;
+  payload_.line = line;
+  payload_.copy = copy;
+  for (auto& socket : sync) {
+    sc_core::sc_time delay = stream::to_time(timing_.clock, since_frame_start);
+    socket->b_transport(payload_, delay);
+  }
+}
+
+void VideoTimingModule::run_guarded() {
+  stream::run_guarded([this] { run(); });
+}
+
+// A frame:
+// 1. the retrace begins; where all is ready, loading RAMs are copied and tables switched, and the hosts may go on;
+// 2. its lines are announced with their times as delays: nothing that a line reads can change before the next retrace, so the kernel need
+//    not stop at each;
+// 3. time passes to the end of the frame, counted from the start of the simulation in cycles.
+void VideoTimingModule::run() {
+  for (std::uint64_t video_frame = 0; displayed_ < frames_; ++video_frame) {
+    if (!showing_ && video_frame > patience_)
+      throw ModelError(basename(), timing_.frame.count() * video_frame, "the hosts have not finished a first frame");
+    wait(sc_core::SC_ZERO_TIME);  // who finishes at this very instant is in time
+    const bool copy = everything_ready();
+    if (copy) {
+      if (!showing_) {
+        first_frame_ps_ = stream::picoseconds_now();
+        frames_before_first_ = video_frame;
+      }
+      showing_ = true;
+      ++updates_;
+    }
+    announce(SyncPayload::Kind::retrace, displayed_, 0, copy, Cycles(0));
+    if (copy) swapped.notify(sc_core::SC_ZERO_TIME);
+    if (showing_) {
+      for (std::size_t line = 0; line < lines_; ++line) announce(SyncPayload::Kind::line, displayed_, line, false, timing_.line_start(line));
+      ++displayed_;
+    }
+    const std::uint64_t end = timing_.clock.picoseconds(timing_.frame * (video_frame + 1));
+    wait(stream::to_time(end - stream::picoseconds_now()));
+  }
+  sc_core::sc_stop();
+}
+
+}  // namespace rastertlm::video
