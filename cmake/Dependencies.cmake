@@ -1,5 +1,8 @@
 # What must be installed. Each failure is one sentence that says what to do.
-find_package(PkgConfig REQUIRED)
+find_package(PkgConfig QUIET)
+if(NOT PKG_CONFIG_FOUND)
+  message(FATAL_ERROR "rastertlm needs pkg-config: run scripts/install_dependencies, or apt-get install pkg-config.")
+endif()
 
 function(rastertlm_pkg prefix package)
   pkg_check_modules(${prefix} QUIET IMPORTED_TARGET GLOBAL ${ARGN})
@@ -27,6 +30,7 @@ rastertlm_find(assimp::assimp libassimp-dev assimp)
 rastertlm_find(OpenSSL::Crypto libssl-dev OpenSSL)
 if(RASTERTLM_TESTS)
   rastertlm_find(GTest::gtest libgtest-dev GTest)
+  rastertlm_find(GTest::gmock libgmock-dev GTest)
   rastertlm_find(rapidcheck librapidcheck-dev rapidcheck)
 endif()
 
