@@ -8,8 +8,8 @@ namespace rastertlm::parameter {
 enum class StatisticKind { count, formula, setting };
 
 struct Statistic {
-  std::string name;         // path in report.json: "links[].utilisation"
-  std::string unit;         // "" where it has none
+  std::string name;  // path in report.json: "links[].utilisation"
+  std::string unit;  // "" where it has none
   StatisticKind kind = StatisticKind::count;
   std::string description;  // one sentence; a formula says its formula
 };

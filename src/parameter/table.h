@@ -1,5 +1,6 @@
-// What a parameter is: declared once, with its path, type, default, unit, range and meaning. A Table is a view of a live configuration
-// structure: whoever reads a file, checks it, writes it back or describes it goes through the same declarations.
+// What a parameter is: declared once, with its path, type, default, unit, range and meaning. A Table is a view of a
+// live configuration structure: whoever reads a file, checks it, writes it back or describes it goes through the same
+// declarations.
 #pragma once
 
 #include <array>
@@ -18,11 +19,11 @@ using Triple = std::array<double, 3>;
 enum class Kind { integer, real, boolean, text, choice, triple, integers, triples, index_triples };
 std::string to_string(Kind kind);
 
-// integer -> int64; real -> double; boolean -> bool; text, choice -> string; triple -> Triple; integers -> vector<int64>;
-// triples -> vector<Triple>; index_triples -> vector<array<int64, 3>>
+// integer -> int64; real -> double; boolean -> bool; text, choice -> string; triple -> Triple; integers ->
+// vector<int64>; triples -> vector<Triple>; index_triples -> vector<array<int64, 3>>
 using IndexTriple = std::array<std::int64_t, 3>;
-using Value = std::variant<std::int64_t, double, bool, std::string, Triple, std::vector<std::int64_t>, std::vector<Triple>,
-                           std::vector<IndexTriple>>;
+using Value = std::variant<std::int64_t, double, bool, std::string, Triple, std::vector<std::int64_t>,
+                           std::vector<Triple>, std::vector<IndexTriple>>;
 
 // The parameter means something only where the choice at `path` (in the same table) has one of `values`.
 struct Condition {
@@ -32,12 +33,12 @@ struct Condition {
 
 // What every declaration says beside its type and default.
 struct About {
-  std::string unit;                   // "" where it has none
-  std::string description;            // one sentence
-  std::string moves;                  // the figure or picture that moves with it
+  std::string unit;         // "" where it has none
+  std::string description;  // one sentence
+  std::string moves;        // the figure or picture that moves with it
   std::optional<Condition> only_when = std::nullopt;
-  bool required = false;              // has no default: the file must give it
-  bool exempt = false;                // a name, an output, threads or fidelity: nothing moves with it, and a test says so
+  bool required = false;  // has no default: the file must give it
+  bool exempt = false;    // a name, an output, threads or fidelity: nothing moves with it, and a test says so
 };
 
 template <class Number>
@@ -51,8 +52,8 @@ struct Parameter {
   std::string path;  // from the table's root, dotted: "video.columns"
   Kind kind;
   About about;
-  std::optional<Range<double>> range;   // integer, integers, real; a triple's components
-  std::vector<std::string> choices;     // choice
+  std::optional<Range<double>> range;  // integer, integers, real; a triple's components
+  std::vector<std::string> choices;    // choice
   Value default_value;
   std::function<Value()> get;
   std::function<void(const Value&)> set;  // the value has the kind's alternative, and has been checked
@@ -64,10 +65,11 @@ class Table;
 struct List {
   std::string path;
   std::string description;
-  std::function<Table()> append;                // a view of a new element at the end
+  std::function<Table()> append;  // a view of a new element at the end
   std::function<std::size_t()> size;
-  std::function<Table(std::size_t)> element;    // a view of an element
-  std::function<Table()> example;               // a view of a default element, for descriptions
+  std::function<Table(std::size_t)> element;  // a view of an element
+  std::function<Table()> example;             // a view of a default element, for descriptions
+  std::function<void()> clear;                // removes every element: what a file lists replaces the default ones
 };
 
 class Table {
@@ -92,6 +94,13 @@ class Table {
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::vector<List>& lists() const { return lists_; }
   const Parameter* find(const std::string& path) const;
+  // Null where no list of this table has the path.
+  const List* find_list(const std::string& path) const;
+  // Whether the conditions of a parameter of this table hold as the table stands, those of the choices it depends on
+  // included.
+  bool applies(const Parameter& parameter) const { return unmet_condition(parameter) == nullptr; }
+  // The first of them that does not hold, or null.
+  const Condition* unmet_condition(const Parameter& parameter) const;
 
  private:
   void add(Parameter parameter);
@@ -129,7 +138,8 @@ void Table::list(const std::string& path, std::vector<T>& target, std::string de
                     [] {
                       static T element{};
                       return view(element);
-                    }});
+                    },
+                    [&target] { target.clear(); }});
 }
 
 inline constexpr double kAnyReal = std::numeric_limits<double>::max();

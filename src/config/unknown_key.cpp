@@ -1,0 +1,69 @@
+#include "src/config/unknown_key.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "src/base/errors.h"
+#include "src/config/value_text.h"
+
+namespace rastertlm::config {
+namespace {
+
+constexpr std::size_t kLongestGuess = 100;  // edit distance is quadratic; no key is as long
+constexpr std::size_t kMostKeysListed = 40;
+
+std::string parent_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos ? "" : path.substr(0, dot);
+}
+
+std::string leaf_of(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+void add_once(std::vector<std::string>& list, const std::string& word) {
+  if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
+}
+
+// Parameters, lists and the tables that hold them, relative to the table.
+std::vector<std::string> known_paths(const parameter::Table& table) {
+  std::vector<std::string> paths;
+  for (const auto& parameter : table.parameters()) paths.push_back(parameter.path);
+  for (const auto& list : table.lists()) paths.push_back(list.path);
+  const std::vector<std::string> leaves = paths;
+  for (const std::string& path : leaves)
+    for (std::string parent = parent_of(path); !parent.empty(); parent = parent_of(parent)) add_once(paths, parent);
+  return paths;
+}
+
+std::string nearest_path(const std::string& path, const std::vector<std::string>& known) {
+  const std::string leaf = leaf_of(path);
+  std::vector<std::string> siblings;
+  for (const std::string& candidate : known)
+    if (parent_of(candidate) == parent_of(path)) siblings.push_back(leaf_of(candidate));
+  if (const std::string near = nearest_word(leaf, siblings); !near.empty())
+    return parent_of(path).empty() ? near : parent_of(path) + '.' + near;
+  // The right key in the wrong table.
+  for (const std::string& candidate : known)
+    if (leaf_of(candidate) == leaf) return candidate;
+  return nearest_word(path, known);
+}
+
+}  // namespace
+
+std::string unknown_key_message(const std::string& path, const Place& place) {
+  std::string message = fmt::format("unknown key '{}'", printable(path));
+  if (place.table == nullptr || place.rest.size() > kLongestGuess) return message;
+  const std::string rest = place.rest.substr(0, place.rest.find('['));
+  const std::vector<std::string> known = known_paths(*place.table);
+  if (const std::string near = nearest_path(rest, known); !near.empty())
+    return message + fmt::format("; nearest known: '{}{}'", place.prefix, near);
+  std::string listed;
+  std::size_t count = 0;
+  for (const std::string& candidate : known)
+    if (parent_of(candidate) == parent_of(rest) && count++ < kMostKeysListed)
+      listed += fmt::format("{}'{}'", listed.empty() ? "" : ", ", leaf_of(candidate));
+  return listed.empty() ? message : message + "; known here: " + listed;
+}
+
+}  // namespace rastertlm::config
