@@ -1,0 +1,150 @@
+// What one simulation gives. Every figure has a unit in its name or beside it, and says where it comes from.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/frame/frame.h"
+#include "src/reference/metrics.h"
+
+namespace rastertlm::run {
+
+struct Bottleneck {
+  std::string unit;
+  std::string resource;
+  double utilisation = 0.0;  // of what it may use in a frame
+};
+
+struct Answer {
+  double frame_rate_hz = 0.0;     // the update rate, for the object machine
+  double display_rate_hz = 0.0;   // frames scanned out each second
+  double update_rate_hz = 0.0;    // display rate / frames that the slowest host needs for its coefficients
+  double required_rate_hz = 0.0;  // video.refresh_hz
+  bool sustained = false;
+  double headroom = 0.0;          // rate that the bottleneck allows / required rate - 1
+  Bottleneck bottleneck;
+  std::uint64_t latency_frames = 0;   // from the start of an animation frame to its picture's first line
+  std::uint64_t initial_load_frames = 0;  // video frames before the first picture
+  std::vector<std::string> limits;    // one sentence for everything that keeps the machine from its rate
+};
+
+struct UnitFigures {
+  std::string name;
+  double clock_hz = 0.0;
+  std::uint64_t cycles = 0;  // over the displayed frames, in the unit's own clock
+  std::uint64_t busy = 0;
+  std::uint64_t starved = 0;
+  std::uint64_t blocked = 0;
+  std::uint64_t idle = 0;
+};
+
+struct Budget {
+  std::string name;
+  double used = 0.0;
+  double available = 0.0;
+  std::string unit;     // "cycles", "us", "flop", "bytes", "words", "processors", "ns"
+  bool fits = false;
+  bool applies = true;  // this machine depends on it; false: stated for comparison
+  std::string source;   // formula or paper
+};
+
+struct LinkFigures {
+  std::string name;
+  unsigned bits = 0;
+  double clock_hz = 0.0;
+  std::uint64_t bytes = 0;
+  double peak_bytes_per_s = 0.0;
+  double achieved_bytes_per_s = 0.0;  // over the displayed frames
+  double active_bytes_per_s = 0.0;    // while it was transferring
+  double utilisation = 0.0;           // achieved / peak
+};
+
+struct Memory {
+  std::string name;
+  std::uint64_t instances = 0;
+  std::uint64_t words = 0;
+  std::uint64_t bits_per_word = 0;
+  std::uint64_t total_bits() const { return instances * words * bits_per_word; }
+};
+
+struct Logic {
+  std::string name;
+  std::uint64_t count = 0;
+  std::string unit;  // "adders", "comparators", "pins", "registers (bits)", ...
+};
+
+struct Modelled {
+  std::uint64_t processors_available = 0;
+  std::uint64_t processors_used = 0;          // hold an object
+  std::uint64_t processors_instantiated = 0;  // simulated
+  std::uint64_t lines_total = 0;              // scan lines x boards
+  std::uint64_t lines_evaluated = 0;          // on which a board had something to do
+  std::uint64_t coefficients_total = 0;       // words that a host which sends all would have written
+  std::uint64_t coefficients_sent = 0;
+  std::uint64_t objects_made = 0;             // triangles of the scene
+  std::uint64_t objects_degenerate = 0;       // of zero area as made
+  std::uint64_t objects_dropped = 0;          // found no processor
+  std::uint64_t fragments_in = 0;
+  std::uint64_t fragments_kept = 0;
+  std::uint64_t fragments_hidden = 0;
+  std::vector<std::string> left_out;          // sentences: what was not simulated because the scene does not need it
+};
+
+// One displayed frame: its figures, not its pixels.
+struct FrameFigures {
+  std::uint64_t frame = 0;
+  std::int64_t animation_frame = 0;           // the pose that it shows
+  std::uint64_t first_pixel_ps = 0;           // since the first displayed frame's retrace began
+  std::uint64_t last_pixel_ps = 0;
+  std::uint64_t drawn = 0;                    // triangles that face the viewer and have an area
+  std::uint64_t back_faces = 0;
+  std::uint64_t degenerate = 0;               // zero area, as made or after snapping
+  std::uint64_t outside = 0;                  // wholly outside the view volume
+  std::uint64_t pieces = 0;                   // more processors taken by clipping
+  std::uint64_t pieces_dropped = 0;
+  int snap_fraction_bits = 0;
+  std::uint64_t covered_pixels = 0;
+  std::uint64_t fragments = 0;
+  std::uint64_t host_flops = 0;               // all computation units; 0 where nothing was computed for this frame
+  std::uint64_t words_sent = 0;
+  std::vector<reference::ErrorFigures> errors;  // empty without reference
+};
+
+// Pixels of a frame, on their way to whoever writes them.
+struct FramePixels {
+  const frame::Frame& shown;
+  const frame::ExactFrame* ideal = nullptr;   // null without reference
+  const FrameFigures& figures;
+};
+using FrameSink = std::function<void(const FramePixels&)>;
+
+struct HostFigures {  // of the simulation itself; only reported when asked for
+  double wall_seconds = 0.0;
+  double simulated_clocks_per_second = 0.0;
+  std::uint64_t peak_memory_bytes = 0;
+};
+
+struct Result {
+  std::string platform;
+  std::string config_digest;
+  std::string scene_digest;
+  std::uint64_t frame_count = 0;
+  std::size_t columns = 0;
+  std::size_t lines = 0;
+  double obtained_refresh_hz = 0.0;
+  Answer answer;
+  std::vector<UnitFigures> units;
+  std::vector<Budget> budgets;
+  std::vector<LinkFigures> links;
+  std::vector<Memory> memories;
+  std::vector<Logic> logic;
+  Modelled modelled;
+  std::vector<FrameFigures> frames;
+  std::vector<std::string> warnings;
+  HostFigures host;
+};
+
+}  // namespace rastertlm::run
