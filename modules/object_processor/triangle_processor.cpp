@@ -1,0 +1,71 @@
+#include "modules/object_processor/triangle_processor.h"
+
+#include <algorithm>
+
+#include "modules/object_processor/prenormaliser.h"
+#include "src/base/fixed_point.h"
+
+namespace rastertlm::object_processor {
+
+namespace {
+
+void put(ProcessorWords& words, std::size_t elementary_processor, const LinearWords& linear) {
+  words[word_index(elementary_processor, 0)] = linear.a;
+  words[word_index(elementary_processor, 1)] = linear.b;
+  words[word_index(elementary_processor, 2)] = linear.c;
+}
+
+LinearWords take(const ProcessorWords& words, std::size_t elementary_processor) {
+  return {words[word_index(elementary_processor, 0)], words[word_index(elementary_processor, 1)],
+          words[word_index(elementary_processor, 2)]};
+}
+
+}  // namespace
+
+ProcessorWords to_words(const TriangleWords& triangle) {
+  ProcessorWords words{};
+  for (std::size_t i = 0; i < 3; ++i) put(words, kEdge0 + i, triangle.edges[i]);
+  put(words, kDepth, triangle.depth);
+  for (std::size_t i = 0; i < 3; ++i) put(words, kNormalX + i, triangle.normals[i]);
+  words[kMaterialIndex] = triangle.material;
+  return words;
+}
+
+TriangleWords to_triangle(const ProcessorWords& words) {
+  TriangleWords triangle;
+  for (std::size_t i = 0; i < 3; ++i) triangle.edges[i] = take(words, kEdge0 + i);
+  triangle.depth = take(words, kDepth);
+  for (std::size_t i = 0; i < 3; ++i) triangle.normals[i] = take(words, kNormalX + i);
+  triangle.material = words[kMaterialIndex];
+  return triangle;
+}
+
+TriangleWords parked_triangle(unsigned word_bits) {
+  const auto all_ones = static_cast<std::uint32_t>(low_mask(word_bits));
+  TriangleWords triangle;
+  triangle.edges.fill({0, 0, all_ones});
+  triangle.depth = {0, 0, all_ones};
+  return triangle;
+}
+
+ProcessorLogic triangle_processor_logic(const ObjectProcessorParameters& parameters, unsigned material_bits) {
+  const auto word = static_cast<std::uint64_t>(parameters.word_bits);
+  const auto slice = static_cast<std::uint64_t>(parameters.slice_bits);
+  const std::uint64_t slices = parameters.slices();
+  std::uint64_t synchronisation = 0;
+  for (std::uint64_t i = 0; i + 1 < slices; ++i) synchronisation += (slices - 1 - i) * slice;
+  const auto prenormalisation_bits = 3 * static_cast<std::uint64_t>(parameters.normal_bits) *
+                                     static_cast<std::uint64_t>(parameters.prenormalisation_cycles);
+
+  ProcessorLogic logic;
+  logic.ram_bits = kElementaryProcessors * 2 * 3 * word;
+  logic.register_bits =
+      kElementaryProcessors * (2 * word + synchronisation + (slices - 1)) + prenormalisation_bits + material_bits;
+  logic.adders = kElementaryProcessors * slices;
+  logic.adder_bits = kElementaryProcessors * word;
+  logic.comparators = 1;
+  logic.shifters = 3 * Prenormaliser(parameters).shifters();
+  return logic;
+}
+
+}  // namespace rastertlm::object_processor
