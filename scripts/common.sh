@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034
 # What the scripts share; sourced, never run. Leaves the caller in the repository's root.
 set -euo pipefail
 
@@ -32,7 +33,7 @@ configure() {
 run_tests() {
   local folder="$1" results status=0
   shift
-  results="$root/$folder/test_results.xml"
+  results="$(cd "$folder" && pwd -P)/test_results.xml"
   rm -f "$results"
   ctest --test-dir "$folder" -j "$(nproc)" --output-on-failure --no-tests=error --output-junit "$results" "$@" || status=$?
   read_counts "$results"
@@ -44,26 +45,15 @@ run_tests() {
   (( tests_failed == 0 ))
 }
 
-# The counts of the first <testsuite> of a JUnit file; a test that was not run although it should have been is a failed one.
+# The counts of CTest's JUnit file. A test that asked to be skipped is skipped, and so is a disabled one; one that could not be run
+# (no such program, a missing file) has failed, although the file calls it skipped too.
 read_counts() {
-  local total=0 failed=0 skipped=0 disabled=0
-  if [[ -s "$1" ]]; then
-    total="$(junit_count tests "$1")"
-    failed="$(junit_count failures "$1")"
-    skipped="$(junit_count skipped "$1")"
-    disabled="$(junit_count disabled "$1")"
-  fi
-  tests_failed="$failed"
-  tests_skipped=$(( skipped + disabled ))
-  tests_passed=$(( total - failed - skipped - disabled ))
-}
-
-junit_count() {
-  awk -v name="$1" '
-    /<testsuite / { inside = 1 }
-    inside && match($0, "(^|[ \t])" name "=\"[0-9]+\"") {
-      text = substr($0, RSTART, RLENGTH); gsub(/[^0-9]/, "", text); print text; found = 1; exit
-    }
-    inside && />/ { exit }
-    END { if (!found) print 0 }' "$2"
+  tests_passed=0 tests_failed=0 tests_skipped=0
+  if [[ ! -s "$1" ]]; then return; fi
+  read -r tests_passed tests_failed tests_skipped < <(awk '
+    /^\t<testcase / { status = $0; sub(/.*status="/, "", status); sub(/".*/, "", status); ++total }
+    /^\t<testcase / && status == "disabled" { ++skipped }
+    /^\t<testcase / && status == "fail" { ++failed }
+    /^\t\t<skipped message="/ && status == "notrun" { if (/message="SKIP_/) ++skipped; else ++failed; status = "" }
+    END { print total - failed - skipped, failed + 0, skipped + 0 }' "$1")
 }
