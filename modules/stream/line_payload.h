@@ -5,16 +5,16 @@
 #include <cstdint>
 #include <tlm>
 
+#include "modules/stream/line_pool.h"
 #include "src/frame/scan_line.h"
 
 namespace rastertlm::stream {
 
-// A scan line of fragments on its way to the screen. Whoever receives the call may write into the line; it returns to its pool when the
-// initiator's call ends.
+// A scan line of fragments on its way to the screen. Whoever receives it takes the handle, and may write into the line.
 struct FragmentPayload : tlm::tlm_generic_payload {
   std::uint64_t frame = 0;  // displayed frame
   std::size_t line = 0;
-  frame::FragmentLine* fragments = nullptr;
+  LinePool::Handle fragments;
 };
 
 // A shaded line. `fragments` is what observers may look at beside the levels.

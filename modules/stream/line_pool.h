@@ -13,7 +13,7 @@ class LinePool {
  public:
   // Gives the line back to its pool; the pool outlives its lines.
   struct Return {
-    LinePool* pool;
+    LinePool* pool = nullptr;
     void operator()(frame::FragmentLine* line) const { pool->free_.push_back(line); }
   };
   using Handle = std::unique_ptr<frame::FragmentLine, Return>;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "src/base/errors.h"
 #include "src/base/units.h"
@@ -22,6 +23,50 @@ struct Occupancy {
                        "busy " + std::to_string(busy) + " + starved " + std::to_string(starved) + " + blocked " + std::to_string(blocked) +
                            " + idle " + std::to_string(idle) + " is not " + std::to_string(cycles) + " cycles");
   }
+};
+
+enum class Activity { busy, starved, blocked, idle };
+
+// Follows one unit through simulated time and counts the cycles of its clock in each activity. A cycle belongs to the activity during which
+// it begins, so the four always add up.
+class OccupancyMeter {
+ public:
+  explicit OccupancyMeter(Clock clock) : clock_(std::move(clock)) {}
+
+  // From `picoseconds` on, the unit does `activity`.
+  void enter(Activity activity, std::uint64_t picoseconds) {
+    settle(picoseconds);
+    activity_ = activity;
+  }
+  // Counting starts here: what was before is the initial load.
+  void restart(std::uint64_t picoseconds) {
+    occupancy_ = {};
+    since_ = clock_.cycles_at(picoseconds).count();
+  }
+  const Occupancy& close(std::uint64_t picoseconds) {
+    settle(picoseconds);
+    return occupancy_;
+  }
+  const Clock& clock() const { return clock_; }
+
+ private:
+  void settle(std::uint64_t picoseconds) {
+    const std::uint64_t now = clock_.cycles_at(picoseconds).count();
+    const std::uint64_t passed = now - since_;
+    since_ = now;
+    occupancy_.cycles += passed;
+    switch (activity_) {
+      case Activity::busy: occupancy_.busy += passed; break;
+      case Activity::starved: occupancy_.starved += passed; break;
+      case Activity::blocked: occupancy_.blocked += passed; break;
+      case Activity::idle: occupancy_.idle += passed; break;
+    }
+  }
+
+  Clock clock_;
+  Occupancy occupancy_;
+  Activity activity_ = Activity::idle;
+  std::uint64_t since_ = 0;
 };
 
 }  // namespace rastertlm::stream

@@ -15,4 +15,10 @@ inline sc_core::sc_time to_time(const Clock& clock, Cycles cycles) { return to_t
 
 inline std::uint64_t picoseconds_now() { return sc_core::sc_time_stamp().value(); }
 
+// Lets time pass to `picoseconds`, if it has not come yet.
+inline void wait_until(std::uint64_t picoseconds) {
+  const std::uint64_t now = picoseconds_now();
+  if (picoseconds > now) sc_core::wait(to_time(picoseconds - now));
+}
+
 }  // namespace rastertlm::stream

@@ -1,0 +1,96 @@
+#include "modules/host/animation_unit_module.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "modules/stream/failure.h"
+
+namespace rastertlm::host {
+
+using stream::Activity;
+using stream::picoseconds_now;
+using stream::wait_until;
+
+AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation, const HostCost& cost, std::size_t children,
+                                         std::size_t units, Overflow overflow, Timeline timeline, std::vector<stream::Link*> links)
+    : sc_module(name), down("down", children), up("up", children), loader("loader"), animation_(animation), cost_(cost), units_(units),
+      overflow_(overflow), timeline_(std::move(timeline)), links_(std::move(links)), meter_(cost.clock()) {
+  for (auto& socket : up) socket.register_b_transport(this, &AnimationUnitModule::receive);
+  SC_HAS_PROCESS(AnimationUnitModule);
+  SC_THREAD(run_guarded);
+}
+
+void AnimationUnitModule::run_guarded() {
+  stream::run_guarded([this] { run(); });
+}
+
+// A frame:
+// 1. say what changed to the units that it feeds and to the table loader;
+// 2. wait for their surveys, settle the grid, place pieces of clipped triangles, and say so;
+// 3. wait for the retrace that shows the frame. The next one is for the frame after that retrace's.
+void AnimationUnitModule::run() {
+  announce_frame(0, true);
+  settle_plan();
+  for (bool first = true;; first = false) {
+    meter_.enter(Activity::idle, picoseconds_now());
+    wait(*timeline_.swapped);
+    if (first) meter_.restart(picoseconds_now());
+    if (!animation_.moves()) return;
+    announce_frame(static_cast<std::int64_t>(timeline_.displayed_frame()) + 1, false);
+    settle_plan();
+  }
+}
+
+void AnimationUnitModule::announce_frame(std::int64_t animation_frame, bool initial) {
+  meter_.enter(Activity::busy, picoseconds_now());
+  surveys_ = 0;
+  guarded_ = false;
+  free_slots_.assign(units_, 0);
+  homeless_.clear();
+  work_ = std::make_unique<FrameWork>(animation_.frame_work(animation_frame, initial));
+  Message& message = payload_.message;
+  message.kind = Message::Kind::frame;
+  message.work = work_.get();
+  message.bytes = work_->message_bytes;
+  sc_core::sc_time no_delay;
+  loader->b_transport(payload_, no_delay);
+  for (std::size_t i = 0; i < down.size(); ++i) send(down[i], payload_, cost_, *links_[i]);
+}
+
+void AnimationUnitModule::settle_plan() {
+  meter_.enter(Activity::starved, picoseconds_now());
+  while (surveys_ < up.size()) wait(sent_up_);
+  wait_until(last_survey_ps_);
+  meter_.enter(Activity::busy, picoseconds_now());
+  placed_ = place_pieces(homeless_, free_slots_);
+  if (!homeless_.empty()) {
+    if (overflow_ == Overflow::error)
+      throw InputError({"", 0, "host.processors_per_unit",
+                        fmt::format("animation frame {}: clipping makes {} more pieces than the machine has free object processors; more processors, or "
+                                    "host.overflow = \"drop\", would draw it",
+                                    work_->animation_frame, homeless_.size())});
+    pieces_dropped_ += homeless_.size();
+  }
+  Message& message = payload_.message;
+  message.kind = Message::Kind::plan;
+  message.guarded = guarded_;
+  message.placed = &placed_;
+  message.bytes = kFlagBytes;
+  for (const auto& pieces : placed_) message.bytes += kPieceBytes * pieces.size();
+  for (std::size_t i = 0; i < down.size(); ++i) send(down[i], payload_, cost_, *links_[i]);
+}
+
+void AnimationUnitModule::receive(MessagePayload& payload, sc_core::sc_time& delay) {
+  const Message& message = payload.message;
+  guarded_ = guarded_ || message.guarded;
+  for (const FreeSlots& free : message.free_slots) free_slots_[free.unit] = free.count;
+  homeless_.insert(homeless_.end(), message.homeless.begin(), message.homeless.end());
+  ++surveys_;
+  last_survey_ps_ = std::max<std::uint64_t>(last_survey_ps_, picoseconds_now() + delay.value());
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  sent_up_.notify(sc_core::SC_ZERO_TIME);
+}
+
+}  // namespace rastertlm::host

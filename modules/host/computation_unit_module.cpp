@@ -1,0 +1,167 @@
+#include "modules/host/computation_unit_module.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "modules/object_processor/bus_address.h"
+#include "modules/stream/failure.h"
+
+namespace rastertlm::host {
+
+using stream::Activity;
+using stream::picoseconds_now;
+using stream::wait_until;
+
+ComputationUnitModule::ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit, Computation& computation, const HostCost& cost,
+                                             std::size_t children, const sc_core::sc_event& swapped, Links links)
+    : sc_module(name), from_above("from_above"), to_above("to_above"), down("down", children), up("up", children), bus("bus"), ready("ready"), unit_(unit),
+      computation_(computation), cost_(cost), swapped_(swapped), links_(std::move(links)), meter_(cost.clock()) {
+  from_above.register_b_transport(this, &ComputationUnitModule::receive_from_above);
+  for (auto& socket : up) socket.register_b_transport(this, &ComputationUnitModule::receive_from_below);
+  write_payload_.set_command(tlm::TLM_WRITE_COMMAND);
+  write_payload_.set_byte_enable_ptr(nullptr);
+  write_payload_.set_dmi_allowed(false);
+  write_payload_.set_extension(&object_number_);
+  SC_HAS_PROCESS(ComputationUnitModule);
+  SC_THREAD(run_guarded);
+}
+
+void ComputationUnitModule::run_guarded() {
+  stream::run_guarded([this] { run(); });
+  write_payload_.clear_extension(&object_number_);
+}
+
+// A frame:
+// 1. receive what changed, and forward it to the units below;
+// 2. transform the triangles, and report whether the frame needs the guard band;
+// 3. receive the frame's grid, and forward it;
+// 4. fit the coefficients, and write them to the loading RAMs;
+// 5. be ready until the retrace that copies them.
+void ComputationUnitModule::run() {
+  ready.write(false);
+  for (bool first = true;; first = false) {
+    meter_.enter(Activity::starved, picoseconds_now());
+    Message message = take(Message::Kind::frame);
+    forward(message);
+    work_on_frame(*message.work);
+    update_.cycles = cost_.clock().cycles_at(picoseconds_now()) - cost_.clock().cycles_at(swap_ps_);
+    updates_.push_back(update_);
+    ready.write(true);
+    meter_.enter(Activity::idle, picoseconds_now());
+    wait(swapped_);
+    swap_ps_ = picoseconds_now();
+    if (first) meter_.restart(swap_ps_);
+    ready.write(false);
+  }
+}
+
+void ComputationUnitModule::work_on_frame(const FrameWork& work) {
+  update_ = {};
+  update_.animation_frame = work.animation_frame;
+  geometry::OperationCounts before = computation_.operations();
+  Survey survey = computation_.survey(work);
+  spend_computing(before);
+  report(std::move(survey));
+
+  meter_.enter(Activity::starved, picoseconds_now());
+  Message plan = take(Message::Kind::plan);
+  forward(plan);
+  before = computation_.operations();
+  const std::vector<Load>& loads = computation_.set_up(plan.guarded, (*plan.placed)[unit_]);
+  spend_computing(before);
+  write_all(loads);
+}
+
+void ComputationUnitModule::spend_computing(const geometry::OperationCounts& before) {
+  const geometry::OperationCounts counts = computation_.operations() - before;
+  const Cycles cycles = cost_.compute(counts);
+  update_.flops += counts.flops();
+  update_.computing += cycles;
+  meter_.enter(Activity::busy, picoseconds_now());
+  wait(stream::to_time(cost_.clock(), cycles));
+}
+
+// The words of a frame go to the bus as bursts with their time annotated; time passes once, at the end: nothing reads a loading RAM before the
+// unit is ready.
+void ComputationUnitModule::write_all(const std::vector<Load>& loads) {
+  std::uint64_t words = 0;
+  for (const Load& load : loads) words += write(load);
+  const Cycles cycles = cost_.bus(words);
+  links_.bus->record(words, cycles);
+  update_.words += words;
+  update_.writing += cycles;
+  words_sent_ += words;
+  wait(stream::to_time(cost_.clock(), cycles));
+}
+
+std::uint64_t ComputationUnitModule::write(const Load& load) {
+  object_processor::ProcessorWords words = object_processor::to_words(load.words);
+  const std::uint64_t count = load.park ? kParkWords : words.size();
+  object_number_.object = load.park ? 0 : load.object + 1;
+  write_payload_.set_address(object_processor::bus_address(unit_, load.slot, 0));
+  write_payload_.set_data_ptr(reinterpret_cast<unsigned char*>(words.data()));
+  write_payload_.set_data_length(static_cast<unsigned>(count * sizeof(std::uint32_t)));
+  write_payload_.set_streaming_width(write_payload_.get_data_length());
+  write_payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+  sc_core::sc_time delay;
+  bus->b_transport(write_payload_, delay);
+  if (write_payload_.is_response_error())
+    throw ModelError(name(), cost_.clock().cycles_at(picoseconds_now()).count(), "the board refused a bus write: " + write_payload_.get_response_string());
+  return count;
+}
+
+Message ComputationUnitModule::take(Message::Kind kind) {
+  while (inbox_.empty()) wait(sent_down_);
+  Letter letter = std::move(inbox_.front());
+  inbox_.pop_front();
+  wait_until(letter.arrives_ps);
+  if (letter.message.kind != kind)
+    throw ModelError(name(), cost_.clock().cycles_at(picoseconds_now()).count(), "a message arrived out of turn");
+  return std::move(letter.message);
+}
+
+void ComputationUnitModule::forward(const Message& message) {
+  MessagePayload payload;
+  payload.message = message;
+  for (std::size_t i = 0; i < down.size(); ++i) send(down[i], payload, cost_, *links_.below[i]);
+}
+
+// One message up: the own survey with those of the units below, when they have come.
+void ComputationUnitModule::report(Survey own) {
+  meter_.enter(Activity::starved, picoseconds_now());
+  while (surveys_ < up.size()) wait(sent_up_);
+  wait_until(last_survey_ps_);
+  MessagePayload payload;
+  Message& message = payload.message;
+  std::swap(message.free_slots, subtree_.free_slots);
+  std::swap(message.homeless, subtree_.homeless);
+  message.kind = Message::Kind::survey;
+  message.guarded = subtree_.guarded || own.guarded;
+  message.free_slots.push_back({unit_, own.free_slots});
+  message.homeless.insert(message.homeless.end(), std::make_move_iterator(own.homeless.begin()), std::make_move_iterator(own.homeless.end()));
+  message.bytes = survey_bytes(message);
+  surveys_ = 0;
+  subtree_.guarded = false;
+  send(to_above, payload, cost_, *links_.above);
+}
+
+void ComputationUnitModule::receive_from_above(MessagePayload& payload, sc_core::sc_time& delay) {
+  inbox_.push_back({payload.message, picoseconds_now() + delay.value()});
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  sent_down_.notify(sc_core::SC_ZERO_TIME);
+}
+
+void ComputationUnitModule::receive_from_below(MessagePayload& payload, sc_core::sc_time& delay) {
+  const Message& message = payload.message;
+  subtree_.guarded = subtree_.guarded || message.guarded;
+  subtree_.free_slots.insert(subtree_.free_slots.end(), message.free_slots.begin(), message.free_slots.end());
+  subtree_.homeless.insert(subtree_.homeless.end(), message.homeless.begin(), message.homeless.end());
+  ++surveys_;
+  last_survey_ps_ = std::max<std::uint64_t>(last_survey_ps_, picoseconds_now() + delay.value());
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  sent_up_.notify(sc_core::SC_ZERO_TIME);
+}
+
+}  // namespace rastertlm::host

@@ -1,0 +1,87 @@
+// A computation unit: one transputer with an object board on its bus. It receives a frame's changes, forwards them, transforms its triangles,
+// reports and is told the frame's grid, fits the coefficients and writes them to the loading RAMs.
+#pragma once
+
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include <deque>
+#include <systemc>
+#include <vector>
+
+#include "modules/host/serial_links_module.h"
+#include "modules/object_processor/object_number_payload.h"
+#include "modules/stream/occupancy.h"
+
+namespace rastertlm::host {
+
+class ComputationUnitModule : public sc_core::sc_module {
+ public:
+  MessageTarget<ComputationUnitModule> from_above;
+  MessageInitiator<ComputationUnitModule> to_above;
+  sc_core::sc_vector<MessageInitiator<ComputationUnitModule>> down;
+  sc_core::sc_vector<MessageTarget<ComputationUnitModule>> up;
+  tlm_utils::simple_initiator_socket<ComputationUnitModule, 32> bus;  // to the object board
+  sc_core::sc_out<bool> ready;                                        // the loading RAMs hold the next frame
+
+  struct Links {
+    stream::Link* above;
+    std::vector<stream::Link*> below;
+    stream::Link* bus;
+  };
+
+  ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit, Computation& computation, const HostCost& cost, std::size_t children,
+                        const sc_core::sc_event& swapped, Links links);
+
+  // Cycles of one update, from the retrace that started it to the last word written.
+  struct Update {
+    std::int64_t animation_frame = 0;
+    Cycles cycles;           // all of it
+    Cycles computing;        // of which arithmetic
+    Cycles writing;          // and bus
+    std::uint64_t flops = 0;
+    std::uint64_t words = 0;
+  };
+  const std::vector<Update>& updates() const { return updates_; }
+  std::uint64_t words_sent() const { return words_sent_; }
+  const stream::Occupancy& occupancy(std::uint64_t end_ps) { return meter_.close(end_ps); }
+
+ private:
+  void run_guarded();
+  void run();
+  Message take(Message::Kind kind);
+  void forward(const Message& message);
+  void report(Survey own);
+  void work_on_frame(const FrameWork& work);
+  void spend_computing(const geometry::OperationCounts& before);
+  void write_all(const std::vector<Load>& loads);
+  std::uint64_t write(const Load& load);
+  void receive_from_above(MessagePayload& payload, sc_core::sc_time& delay);
+  void receive_from_below(MessagePayload& payload, sc_core::sc_time& delay);
+
+  std::uint32_t unit_;
+  Computation& computation_;
+  const HostCost& cost_;
+  const sc_core::sc_event& swapped_;
+  Links links_;
+
+  struct Letter {
+    Message message;
+    std::uint64_t arrives_ps;
+  };
+  std::deque<Letter> inbox_;  // from above, in order
+  sc_core::sc_event sent_down_;
+  Message subtree_;  // the survey of the units below, in the making
+  std::size_t surveys_ = 0;
+  std::uint64_t last_survey_ps_ = 0;
+  sc_core::sc_event sent_up_;
+
+  tlm::tlm_generic_payload write_payload_;
+  object_processor::ObjectNumber object_number_;
+  Update update_;
+  std::uint64_t swap_ps_ = 0;  // the retrace that started the current update; 0 for the first
+  std::vector<Update> updates_;
+  std::uint64_t words_sent_ = 0;
+  stream::OccupancyMeter meter_;
+};
+
+}  // namespace rastertlm::host

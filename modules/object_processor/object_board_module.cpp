@@ -1,0 +1,63 @@
+#include "modules/object_processor/object_board_module.h"
+
+#include <cstring>
+#include <utility>
+
+#include "modules/object_processor/bus_address.h"
+#include "modules/object_processor/object_number_payload.h"
+#include "modules/stream/simulated_time.h"
+
+namespace rastertlm::object_processor {
+
+ObjectBoardModule::ObjectBoardModule(const sc_core::sc_module_name& name, std::uint32_t board_number, ObjectBoard& board, const Timing& timing,
+                                     std::size_t columns, stream::Link& link)
+    : sc_module(name), bus("bus"), sync("sync"), out("out"), board_number_(board_number), board_(board), timing_(timing), link_(link), pool_(columns) {
+  bus.register_b_transport(this, &ObjectBoardModule::write);
+  sync.register_b_transport(this, &ObjectBoardModule::synchronise);
+}
+
+// A burst of consecutive words; the bus's time is annotated by whoever drives it.
+void ObjectBoardModule::write(tlm::tlm_generic_payload& payload, sc_core::sc_time&) {
+  const BusTarget target = bus_target(payload.get_address());
+  const std::size_t count = payload.get_data_length() / sizeof(std::uint32_t);
+  if (!payload.is_write()) {
+    payload.set_response_status(tlm::TLM_COMMAND_ERROR_RESPONSE);
+    return;
+  }
+  if (target.board != board_number_ || target.processor >= board_.processors() || target.word + count > kWords) {
+    payload.set_response_status(tlm::TLM_ADDRESS_ERROR_RESPONSE);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, payload.get_data_ptr() + i * sizeof(word), sizeof(word));
+    board_.write_word(target.processor, target.word + i, word);
+  }
+  ObjectNumber* number = nullptr;
+  payload.get_extension(number);
+  if (number != nullptr && number->object != 0) board_.set_object(target.processor, number->object);
+  words_loaded_ += count;
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+}
+
+void ObjectBoardModule::synchronise(stream::SyncPayload& payload, sc_core::sc_time& delay) {
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  if (payload.kind == stream::SyncPayload::Kind::retrace) {
+    if (payload.copy) {
+      board_.copy();
+      ++copies_;
+    }
+    return;
+  }
+  stream::LinePool::Handle line = pool_.acquire();
+  board_.evaluate_line(static_cast<std::uint32_t>(payload.line), *line);
+  link_.record(line->columns(), Cycles(line->columns()));
+  payload_.frame = payload.frame;
+  payload_.line = payload.line;
+  payload_.fragments = std::move(line);
+  ++lines_sent_;
+  delay += stream::to_time(timing_.clock, timing_.first_pixel);
+  out->b_transport(payload_, delay);
+}
+
+}  // namespace rastertlm::object_processor
