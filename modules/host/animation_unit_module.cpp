@@ -6,12 +6,29 @@
 #include <utility>
 
 #include "modules/stream/failure.h"
+#include "src/geometry/lighting.h"
 
 namespace rastertlm::host {
 
 using stream::Activity;
 using stream::picoseconds_now;
 using stream::wait_until;
+
+namespace {
+
+// Light and highlight vectors as the shading processor knows them: constant over the frame, the viewer infinitely far along +z.
+std::vector<shading::LightArguments> light_arguments(const scene::Pose& pose) {
+  std::vector<shading::LightArguments> result;
+  for (const scene::Light& light : pose.lights) {
+    const geometry::Vector3<double> halfway = geometry::normalised<double>(light.vector + glm::dvec3(0, 0, 1));
+    result.push_back({{light.vector.x, light.vector.y, light.vector.z},
+                      {halfway.x, halfway.y, halfway.z},
+                      {light.intensity.x, light.intensity.y, light.intensity.z}});
+  }
+  return result;
+}
+
+}  // namespace
 
 AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation, const HostCost& cost, std::size_t children,
                                          std::size_t units, Overflow overflow, Timeline timeline, std::vector<stream::Link*> links)
@@ -55,7 +72,10 @@ void AnimationUnitModule::announce_frame(std::int64_t animation_frame, bool init
   message.work = work_.get();
   message.bytes = work_->message_bytes;
   sc_core::sc_time no_delay;
-  loader->b_transport(payload_, no_delay);
+  light_payload_.initial = initial;
+  light_payload_.changed = work_->lights_changed;
+  light_payload_.lights = light_arguments(work_->pose);
+  loader->b_transport(light_payload_, no_delay);
   for (std::size_t i = 0; i < down.size(); ++i) send(down[i], payload_, cost_, *links_[i]);
 }
 

@@ -7,6 +7,7 @@
 #include <systemc>
 
 #include "modules/host/serial_links_module.h"
+#include "modules/shading/light_payload.h"
 #include "modules/stream/occupancy.h"
 
 namespace rastertlm::host {
@@ -15,7 +16,7 @@ class AnimationUnitModule : public sc_core::sc_module {
  public:
   sc_core::sc_vector<MessageInitiator<AnimationUnitModule>> down;  // to the units that it feeds
   sc_core::sc_vector<MessageTarget<AnimationUnitModule>> up;       // their surveys
-  MessageInitiator<AnimationUnitModule> loader;                    // to the table loader
+  tlm_utils::simple_initiator_socket<AnimationUnitModule, stream::kNoBusWidth, shading::LightProtocol> loader;  // the lights, to the table loader
 
   struct Timeline {
     const sc_core::sc_event* swapped;               // at a retrace that showed the last frame
@@ -46,6 +47,7 @@ class AnimationUnitModule : public sc_core::sc_module {
   std::vector<stream::Link*> links_;
   std::unique_ptr<FrameWork> work_;
   MessagePayload payload_;
+  shading::LightPayload light_payload_;
   std::vector<std::vector<Piece>> placed_;
 
   // Gathered from the surveys of a frame.

@@ -31,7 +31,8 @@ struct SyncPayload : tlm::tlm_generic_payload {
   Kind kind = Kind::line;
   std::uint64_t frame = 0;
   std::size_t line = 0;
-  bool copy = false;  // retrace: loading RAMs go to backup RAMs, and freshly loaded tables are switched in
+  bool copy = false;           // retrace: loading RAMs go to backup RAMs
+  bool switch_tables = false;  // retrace: set by the table loader for the shading processor behind it: use the other bank
 };
 
 template <class Payload>

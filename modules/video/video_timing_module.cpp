@@ -26,6 +26,7 @@ void VideoTimingModule::announce(SyncPayload::Kind kind, std::uint64_t frame, st
   payload_.frame = frame;
   payload_.line = line;
   payload_.copy = copy;
+  payload_.switch_tables = false;
   for (auto& socket : sync) {
     sc_core::sc_time delay = stream::to_time(timing_.clock, since_frame_start);
     socket->b_transport(payload_, delay);
