@@ -12,6 +12,20 @@ namespace {
 
 constexpr std::uint32_t kMaterialMask = 0xFF;  // the line holds a material in a byte
 
+// The depth comparator along a span. Word: as what words are compared; narrower ones than 32 bits are not negative, and
+// vector units without unsigned comparisons do those faster as signed.
+template <class Word>
+void compare_depth(std::uint32_t depth, std::uint32_t step, std::uint32_t mask, std::uint32_t mark,
+                   std::uint32_t* __restrict nearest, std::uint32_t* __restrict winner, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t word = depth & mask;
+    const bool wins = static_cast<Word>(word) < static_cast<Word>(nearest[i]);
+    nearest[i] = wins ? word : nearest[i];
+    winner[i] = wins ? mark : winner[i];
+    depth += step;
+  }
+}
+
 }  // namespace
 
 ObjectBoard::ObjectBoard(const ObjectProcessorParameters& parameters, std::uint32_t processors,
@@ -26,8 +40,7 @@ ObjectBoard::ObjectBoard(const ObjectProcessorParameters& parameters, std::uint3
       everything_(visit == Visit::everything),
       late_carry_(parameters.carry_clock == CarryClock::clock2 && parameters.slices() > 1),
       bucket_begin_(std::size_t{lines} + 1, 0),
-      winner_(std::size_t{columns} + 1, 0),
-      coverage_change_(std::size_t{columns} + 1, 0) {
+      winner_(std::size_t{columns} + 1, 0) {
   for (auto& component : normal_) component.resize(columns);
   if (everything_ && processors_ > 0) {
     writable(processors_ - 1, 0);
@@ -98,7 +111,7 @@ std::uint64_t ObjectBoard::memory_bytes() const {
   const std::uint64_t indices = changes_.capacity() + bucket_begin_.capacity() + bucket_slots_.capacity() +
                                 active_.capacity() + merged_.capacity();
   return slots_.capacity() * a_slot + indices * sizeof(std::uint32_t) +
-         std::uint64_t{columns_} * (4 * sizeof(std::uint32_t) + sizeof(std::uint16_t));
+         std::uint64_t{columns_} * 4 * sizeof(std::uint32_t);
 }
 
 Interval ObjectBoard::interval_of(const ProcessorWords& words) const {
@@ -256,36 +269,26 @@ void ObjectBoard::draw_span(std::uint32_t slot, const LineEdges& at, Interval sp
   touched_.begin = std::min(touched_.begin, span.begin);
   touched_.end = std::max(touched_.end, span.end);
   counters_.fragments_in += end - begin;
-  ++coverage_change_[begin];
-  --coverage_change_[end];
-  const std::uint32_t start = at.depth;
-  const std::uint32_t step = at.depth_step;
-  const std::uint32_t mark = slot + 1;
-  std::uint32_t* __restrict nearest = out.depth.data();
-  std::uint32_t* __restrict winner = winner_.data();
-  for (std::uint32_t column = begin; column < end; ++column) {
-    const std::uint32_t depth = (start + step * column) & mask;
-    const bool wins = depth < nearest[column];
-    nearest[column] = wins ? depth : nearest[column];
-    winner[column] = wins ? mark : winner[column];
-  }
+  const std::uint32_t start = at.depth + at.depth_step * begin;
+  const std::size_t count = end - begin;
+  if (format_.bits() < 32)
+    compare_depth<std::int32_t>(start, at.depth_step, mask, slot + 1, out.depth.data() + begin, winner_.data() + begin,
+                                count);
+  else
+    compare_depth<std::uint32_t>(start, at.depth_step, mask, slot + 1, out.depth.data() + begin, winner_.data() + begin,
+                                 count);
+  std::uint16_t* __restrict coverage = out.coverage.data();
+  for (std::uint32_t column = begin; column < end; ++column) ++coverage[column];
 }
 
 void ObjectBoard::resolve_winners(std::uint32_t line, frame::FragmentLine& out) {
   const auto begin = static_cast<std::size_t>(touched_.begin);
   const auto end = static_cast<std::size_t>(touched_.end);
-  std::uint16_t coverage = 0;
   std::uint64_t seen = 0;
-  for (std::size_t column = begin; column < end; ++column) {
-    coverage = static_cast<std::uint16_t>(coverage + coverage_change_[column]);
-    coverage_change_[column] = 0;
-    out.coverage[column] = static_cast<std::uint16_t>(out.coverage[column] + coverage);
-  }
-  coverage_change_[end] = 0;
   const std::uint64_t in_before = counters_.fragments_kept + counters_.fragments_hidden;
   for (std::size_t column = begin; column < end;) {
     if (winner_[column] == 0) {
-      ++column;
+      column += winner_[column + 1] == 0 ? 2 : 1;
       continue;
     }
     // A stretch of pixels that this board shows, by runs of one winner; winner_[columns] is 0 and ends the last.
@@ -293,9 +296,11 @@ void ObjectBoard::resolve_winners(std::uint32_t line, frame::FragmentLine& out) 
     while (winner_[column] != 0) {
       const std::uint32_t winner = winner_[column];
       const std::size_t run = column;
-      while (winner_[column] == winner) winner_[column++] = 0;
+      while (winner_[column] == winner) ++column;
       fill_run(winner - 1, line, run, column, out);
     }
+    std::fill(winner_.begin() + static_cast<std::ptrdiff_t>(stretch),
+              winner_.begin() + static_cast<std::ptrdiff_t>(column), 0U);
     prenormaliser_.line({normal_[0].data() + stretch, normal_[1].data() + stretch, normal_[2].data() + stretch},
                         {out.normal_x.data() + stretch, out.normal_y.data() + stretch, out.normal_z.data() + stretch},
                         column - stretch);
@@ -321,8 +326,12 @@ void ObjectBoard::fill_run(std::uint32_t slot, std::uint32_t line, std::size_t b
       start = late.start;
       if (begin == 0) normal[0] = late.first;
     }
-    for (std::uint32_t column = late_carry_ ? std::max(first, 1U) : first; column < last; ++column)
-      normal[column] = start + step * column;
+    const std::uint32_t from = late_carry_ ? std::max(first, 1U) : first;
+    std::uint32_t word = start + step * from;
+    for (std::uint32_t column = from; column < last; ++column) {
+      normal[column] = word;
+      word += step;
+    }
   }
   const auto material = static_cast<std::uint8_t>(words[kMaterialIndex]);
   const std::uint32_t object = slots_[slot].object;

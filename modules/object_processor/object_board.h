@@ -118,10 +118,9 @@ class ObjectBoard {
   std::vector<std::uint32_t> merged_;  // the next active_, in the making
   std::uint32_t current_line_ = kNoLine;
 
-  // Of the line being evaluated. winner_ and coverage_change_ are zero between lines.
+  // Of the line being evaluated. winner_ is zero between lines.
   Interval touched_;
   std::vector<std::uint32_t> winner_;  // slot + 1 of this board's nearest so far, or 0; one column more than the screen
-  std::vector<std::uint16_t> coverage_change_;  // from the column before, modulo 2^16; one column more than the screen
   std::array<std::vector<std::uint32_t>, 3> normal_;  // words of the winners before normalisation
   BoardCounters counters_;
 };

@@ -95,16 +95,17 @@ TEST(LineEvaluator, NoCoveredPixelLiesOutsideTheTouchedLines) {
   EXPECT_GT(covered, 1000);
 }
 
+// Quarters of a pixel.
 struct Point {
   std::int64_t x, y;
 };
 
-// a x + b y + c, >= 0 on the left of the way from p to q with y down.
+// >= 0 on the left of the way from p to q with y down; in sixteenths.
 LinearWords edge_through(Point p, Point q, std::int64_t sign, unsigned bits) {
   const std::int64_t a = sign * (p.y - q.y);
   const std::int64_t b = sign * (q.x - p.x);
   const std::int64_t c = -(a * p.x + b * p.y);
-  return of_integers(a, b, c - b, bits);
+  return of_integers(4 * a, 4 * b, c - 4 * b, bits);
 }
 
 // The interval is that of the triangle's corners, cut by the screen.
@@ -114,29 +115,27 @@ TEST(LineEvaluator, TouchedLinesOfATriangleAreThoseOfItsCorners) {
   for (int i = 0; i < 20000; ++i) {
     std::array<Point, 3> corner{};
     for (Point& point : corner)
-      point = {static_cast<std::int64_t>(random() % kSide), static_cast<std::int64_t>(random() % 400) - 100};
+      point = {static_cast<std::int64_t>(random() % (4 * kSide - 3)), static_cast<std::int64_t>(random() % 1600) - 400};
+    if (i % 4 == 0) corner[1].y = corner[2].y = corner[0].y + static_cast<std::int64_t>(random() % 5) - 2;
     const std::int64_t area = (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) -
                               (corner[2].x - corner[0].x) * (corner[1].y - corner[0].y);
     if (area == 0) continue;
-    const std::int64_t sign = area > 0 ? 1 : -1;
-    std::array<LinearWords, 3> edges{};
-    for (std::size_t edge = 0; edge < 3; ++edge)
-      edges[edge] = edge_through(corner[edge], corner[(edge + 1) % 3], sign, 24);
     const std::int64_t top = std::min({corner[0].y, corner[1].y, corner[2].y});
     const std::int64_t bottom = std::max({corner[0].y, corner[1].y, corner[2].y});
-    const Interval touched = touched_lines(edges, WordFormat(24), kSide, kSide);
-    if (bottom < 0 || top >= kSide) {
-      ASSERT_TRUE(touched.empty());
-    } else {
-      ASSERT_EQ(touched.begin, std::max<std::int64_t>(top, 0));
-      ASSERT_EQ(touched.end, std::min<std::int64_t>(bottom + 1, kSide));
-    }
-    // The same in words so wide that the products need 128 bits.
-    for (std::size_t edge = 0; edge < 3; ++edge)
-      edges[edge] = edge_through(corner[edge], corner[(edge + 1) % 3], sign, 32);
-    ASSERT_EQ(touched_lines(edges, WordFormat(32), kSide, kSide).empty(), touched.empty());
-    if (!touched.empty()) {
-      ASSERT_EQ(touched_lines(edges, WordFormat(32), kSide, kSide), touched);
+    const std::int64_t first = std::max<std::int64_t>(ceil_div(top, 4), 0);
+    const std::int64_t end = std::min<std::int64_t>(floor_div(bottom, 4) + 1, kSide);
+    // 32-bit words have products of more than 64 bits.
+    for (const unsigned bits : {24U, 32U}) {
+      std::array<LinearWords, 3> edges{};
+      for (std::size_t edge = 0; edge < 3; ++edge)
+        edges[edge] = edge_through(corner[edge], corner[(edge + 1) % 3], area > 0 ? 1 : -1, bits);
+      const Interval touched = touched_lines(edges, WordFormat(bits), kSide, kSide);
+      if (first >= end) {
+        ASSERT_TRUE(touched.empty());
+      } else {
+        ASSERT_EQ(touched.begin, first);
+        ASSERT_EQ(touched.end, end);
+      }
     }
   }
 }
