@@ -1,0 +1,129 @@
+// The I.M.O.G.E.N.E. machine put together (004, figures 5.1 and 5.5). Assembly only: cores compute, modules decide when, and this says who is
+// connected to whom.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "modules/decision_unit/decision_unit_module.h"
+#include "modules/host/animation_unit_module.h"
+#include "modules/host/computation_unit_module.h"
+#include "modules/host/link_topology.h"
+#include "modules/object_processor/object_board_module.h"
+#include "modules/shading/deferred_shading_module.h"
+#include "modules/shading/table_loader_module.h"
+#include "modules/video/video_output_module.h"
+#include "modules/video/video_timing_module.h"
+#include "platforms/imogene/machine.h"
+#include "src/scene/scene.h"
+
+namespace rastertlm::imogene {
+
+struct Options {
+  std::uint64_t frames = 1;       // to show
+  bool model_everything = false;  // evaluate every processor on every line
+};
+
+// What a displayed frame shows, as the hosts left it.
+struct ShownFrame {
+  std::uint64_t frame = 0;
+  bool updated = false;  // new coefficients came in at its retrace
+  std::int64_t animation_frame = 0;
+  scene::Pose pose;
+  bool guarded = false;
+  host::TriangleCounts triangles;
+  std::uint64_t flops = 0;  // of the update
+  std::uint64_t words = 0;
+  std::uint64_t first_pixel_ps = 0;  // since the first displayed frame's retrace began
+  std::uint64_t last_pixel_ps = 0;
+};
+
+class Imogene {
+ public:
+  using Sink = std::function<void(const ShownFrame&, const frame::Frame&)>;
+
+  // Machine and scene outlive it. Throws InputError where the machine cannot take the scene. One a process.
+  Imogene(const Machine& machine, const scene::Scene& scene, const Options& options, Sink sink);
+
+  // Simulates until the last frame has been shown, and checks the identities of conservation (ModelError).
+  void run();
+
+  const Machine& machine() const { return machine_; }
+  const video::Timing& timing() const { return timing_; }
+  const geometry::SnapGrids& grids() const { return grids_; }
+  const host::HostCost& cost() const { return cost_; }
+  const host::SlotMap& slots() const { return slots_; }
+  const host::Animation& animation() const { return animation_; }
+  std::uint64_t start_ps() const { return video_timing_->first_frame_ps(); }
+  std::uint64_t end_ps() const { return end_ps_; }
+  std::uint64_t updates() const { return video_timing_->updates(); }
+  std::uint64_t frames_before_first() const { return video_timing_->frames_before_first(); }
+
+  // Latencies in pixel clocks: from a pixel's cycle in the first processor to its decision, and to its levels.
+  Cycles decision_latency() const { return decision_latency_; }
+  Cycles pixel_latency() const { return pixel_latency_; }
+
+  std::vector<object_processor::ObjectBoard>& boards() { return boards_; }
+  std::vector<std::unique_ptr<object_processor::ObjectBoardModule>>& board_modules() { return board_modules_; }
+  std::vector<std::unique_ptr<host::ComputationUnitModule>>& computation_units() { return computation_units_; }
+  host::AnimationUnitModule& animation_unit() { return *animation_unit_; }
+  shading::DeferredShader& shader() { return shader_; }
+  shading::TableLoaderModule& table_loader() { return *table_loader_; }
+  decision_unit::DecisionUnit& decision() { return decision_; }
+  decision_unit::DecisionUnitModule& decision_module() { return *decision_module_; }
+  std::deque<stream::Link>& links() { return links_; }
+
+ private:
+  void load_materials();
+  void build_links();
+  void build_hosts();
+  void build_boards();
+  void build_shading();
+  void build_video();
+  void bind_hosts();
+  void bind_display();
+  void show(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps);
+  void check_identities();
+  stream::Link& add_link(const std::string& name, unsigned bits, const Clock& clock);
+
+  const Machine& machine_;
+  const scene::Scene& scene_;
+  Options options_;
+  Sink sink_;
+  video::Timing timing_;
+  geometry::SnapGrids grids_;
+  host::HostCost cost_;
+  host::SlotMap slots_;
+  host::Animation animation_;
+  Cycles decision_latency_;
+  Cycles pixel_latency_;
+
+  std::deque<stream::Link> links_;
+  std::vector<stream::Link*> host_links_;   // to unit k, from whoever feeds it
+  std::vector<stream::Link*> bus_links_;    // of unit k
+  std::vector<stream::Link*> board_links_;  // of board k
+  std::vector<std::unique_ptr<host::Computation>> computations_;
+  std::vector<object_processor::ObjectBoard> boards_;
+  decision_unit::DecisionUnit decision_;
+  shading::DeferredShader shader_;
+
+  std::unique_ptr<video::VideoTimingModule> video_timing_;
+  std::unique_ptr<host::AnimationUnitModule> animation_unit_;
+  std::vector<std::unique_ptr<host::ComputationUnitModule>> computation_units_;
+  std::vector<std::unique_ptr<object_processor::ObjectBoardModule>> board_modules_;
+  std::unique_ptr<decision_unit::DecisionUnitModule> decision_module_;
+  std::unique_ptr<shading::DeferredShadingModule> shading_module_;
+  std::unique_ptr<shading::TableLoaderModule> table_loader_;
+  std::unique_ptr<video::VideoOutputModule> video_output_;
+  std::deque<sc_core::sc_signal<bool>> ready_;
+  sc_core::sc_signal<bool> tables_ready_{"tables_ready"};
+
+  ShownFrame shown_;
+  std::uint64_t updates_seen_ = 0;
+  std::uint64_t end_ps_ = 0;
+};
+
+}  // namespace rastertlm::imogene

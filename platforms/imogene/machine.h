@@ -1,0 +1,44 @@
+// The I.M.O.G.E.N.E. machine as a machine file describes it: the units' parameters joined into one table.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "modules/decision_unit/parameters.h"
+#include "modules/host/parameters.h"
+#include "modules/object_processor/parameters.h"
+#include "modules/shading/parameters.h"
+#include "modules/video/parameters.h"
+#include "modules/video/timing.h"
+#include "src/base/errors.h"
+#include "src/geometry/snapping.h"
+#include "src/parameter/table.h"
+
+namespace rastertlm::imogene {
+
+enum class Platform { imogene };
+enum class Fidelity { line };
+
+struct Machine {
+  std::int64_t schema = 1;
+  Platform platform = Platform::imogene;
+  Fidelity fidelity = Fidelity::line;
+  video::VideoParameters video;
+  host::HostParameters host;
+  object_processor::ObjectProcessorParameters object_processor;
+  decision_unit::DecisionUnitParameters decision_unit;
+  shading::ShadingParameters shading;
+  shading::LoaderParameters loader;
+
+  void declare(parameter::Table& table);
+  // What no single range can say; `file` names the machine file in the diagnostics.
+  void check(Diagnostics& diagnostics, const std::string& file) const;
+
+  std::uint64_t processors() const;
+  unsigned material_bits() const;  // of a link word: enough for every material, at least 1
+};
+
+// The grids of this machine's edge words. Throws InputError with the word width that would do, where none fits.
+geometry::SnapGrids snap_grids(const Machine& machine);
+
+}  // namespace rastertlm::imogene
