@@ -27,8 +27,9 @@ std::array<long double, 3> barycentric(const Points& points, int q, std::int64_t
           static_cast<long double>(geometry::doubled_area(points[0], points[1], p)) / area};
 }
 
-// `turned`: the triangle shows its back, and its normals are expected to be turned.
-void compare_planes(const Triangle& triangle, const geometry::SnapGrid& grid, const WordFormat& format, Worst& worst) {
+// Covered pixels from `first` on, both ways. A back face is expected to have its normals turned.
+void compare_planes(const Triangle& triangle, const geometry::SnapGrid& grid, const WordFormat& format, Worst& worst,
+                    std::int64_t first = 0) {
   const SetUpResult result = set_up_triangle(triangle, 0, true, grid, format);
   if (result.outcome != Outcome::drawn) return;
   const int q = grid.fraction_bits;
@@ -43,9 +44,9 @@ void compare_planes(const Triangle& triangle, const geometry::SnapGrid& grid, co
       std::ldexp(geometry::doubled_area(points[0], points[1], points[2]) < 0 ? 1.0 : -1.0, format.word_bits - 2);
   const double m = std::ceil(static_cast<double>(columns + lines) / 4) + 1;
   const double range = std::ldexp(1.0, format.word_bits) - 2 - 2 * m;
-  for (std::int64_t y = std::max<std::int64_t>(0, ys.first >> q); y < std::min(lines, (ys.second >> q) + 1); ++y) {
+  for (std::int64_t y = std::max<std::int64_t>(first, ys.first >> q); y < std::min(lines, (ys.second >> q) + 1); ++y) {
     const Span span = crossed_span(points, q, y);
-    for (std::int64_t x = std::max<std::int64_t>(0, span.begin); x < std::min(columns, span.end); ++x) {
+    for (std::int64_t x = std::max<std::int64_t>(first, span.begin); x < std::min(columns, span.end); ++x) {
       const auto weight = barycentric(points, q, x, y);
       ++worst.pixels;
       const auto exact = [&](const auto& value) {
@@ -58,7 +59,7 @@ void compare_planes(const Triangle& triangle, const geometry::SnapGrid& grid, co
       const std::uint64_t depth = word_at(result.words.depth, ux, uy, format.word_bits);
       const double depth_error = std::abs(static_cast<double>(static_cast<long double>(depth) -
                                                               exact([&](const Corner& c) { return c.z * range + m; })));
-      worst.outside_range += depth > low_mask(bits) - 1 ? 1 : 0;
+      worst.outside_range += depth == low_mask(bits) || depth_error > range / 2 ? 1 : 0;
       worst.depth_error = std::max(worst.depth_error, depth_error);
       worst.over_bound = std::max(worst.over_bound, depth_error - bound);
       for (int i = 0; i < 3; ++i) {
@@ -170,6 +171,39 @@ TEST(Planes, NeverWrapWithNearAndFarCornersInTheGuardBand) {
     RC_ASSERT(worst.outside_range == 0);
     RC_ASSERT(worst.over_bound < kDoubleError);
   }));
+}
+
+// A margin of a quarter of the screen is enough only because the anchor is the centre of what is seen: with the centre
+// of the whole box, three quarters of a screen away, the rounding of both slopes would take depth over its end.
+TEST(Planes, NeverWrapAtTheFarCornerOfABoxThatLeavesTheScreen) {
+  const WordFormat format{24, 512, 512};
+  const geometry::SnapGrid grid = geometry::snap_grids(512, 512, 24, -1)->guarded;
+  ASSERT_EQ(grid.guard_x, 255);
+  Generator generator(24);
+  Worst worst;
+  for (int i = 0; i < 3000; ++i) {
+    Triangle t = generator.triangle(Family::full_screen, 512.0);
+    const double end = i % 2;
+    t[0].x = t[0].y = 511.0, t[0].z = end;
+    t[1].x = -255.0, t[1].y = generator.uniform(0.0, 500.0), t[1].z = std::abs(end - generator.uniform(0.0, 1e-3));
+    t[2].x = generator.uniform(0.0, 500.0), t[2].y = -255.0, t[2].z = std::abs(end - generator.uniform(0.0, 1e-3));
+    compare_planes(t, grid, format, worst, 500);
+  }
+  EXPECT_EQ(worst.outside_range, 0);
+  EXPECT_GT(worst.pixels, 3000);
+}
+
+// Scaled edges leave the vertices alone, and the planes take them on a grid of 2^-12 pixel.
+TEST(Planes, KeepTheirBoundBesideScaledEdges) {
+  const WordFormat format{24, 512, 512, EdgeForm::scaled};
+  const geometry::SnapGrid grid{kScaledFractionBits, 0, 0};
+  Generator generator(25);
+  Worst worst;
+  for (const Family family : {Family::small, Family::hundred, Family::full_screen})
+    for (int i = 0; i < 10; ++i) compare_planes(generator.triangle(family, 512.0), grid, format, worst);
+  EXPECT_LT(worst.over_bound, kDoubleError);
+  EXPECT_EQ(worst.outside_range, 0);
+  EXPECT_GT(worst.pixels, 100'000);
 }
 
 TEST(Planes, GoBetweenTheMarginsOfNearAndFar) {
