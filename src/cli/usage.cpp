@@ -1,0 +1,60 @@
+#include "src/cli/usage.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "src/base/errors.h"
+
+namespace rastertlm::cli {
+namespace {
+
+constexpr std::uint64_t kMostFrames = 1'000'000;
+
+// Whether all of the text is a number of that type.
+template <class T>
+bool reads_as(const std::string& text, T& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+}  // namespace
+
+std::string unknown_word(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_word(word, known);
+  if (!nearest.empty()) return fmt::format("unknown {} '{}'; did you mean '{}'?", kind, word, nearest);
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  return fmt::format("unknown {} '{}'; known: {}", kind, word, list);
+}
+
+std::string left_over(const CLI::App& app, const std::vector<std::string>& words) {
+  std::vector<std::string> options;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += '\n';
+    if (word.size() > 1 && word.front() == '-')
+      text += unknown_word("option", word.substr(0, word.find('=')), options);
+    else
+      text += fmt::format("'{}' is one argument too many", word);
+  }
+  return text;
+}
+
+std::string finite_and_positive(const std::string& text) {
+  double number = 0.0;
+  if (reads_as(text, number) && std::isfinite(number) && number > 0.0) return {};
+  return fmt::format("'{}' is not a number above 0", text);
+}
+
+std::string whole_from_one(const std::string& text) {
+  std::uint64_t number = 0;
+  if (reads_as(text, number) && number >= 1 && number <= kMostFrames) return {};
+  return fmt::format("'{}' is not a whole number from 1 to {}", text, kMostFrames);
+}
+
+}  // namespace rastertlm::cli

@@ -1,0 +1,20 @@
+// What to say about words that the command line does not know.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace rastertlm::cli {
+
+// "unknown sub-command 'rendr'; did you mean 'render'?", or all that is known where nothing is near.
+std::string unknown_word(const std::string& kind, const std::string& word, const std::vector<std::string>& known);
+
+// What is wrong with arguments that no option of `app` takes.
+std::string left_over(const CLI::App& app, const std::vector<std::string>& words);
+
+// Validators: an empty text, or what is wrong.
+std::string finite_and_positive(const std::string& text);
+std::string whole_from_one(const std::string& text);
+
+}  // namespace rastertlm::cli

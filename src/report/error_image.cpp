@@ -1,0 +1,20 @@
+#include "src/report/error_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace rastertlm::report {
+
+std::vector<std::uint8_t> error_image(const frame::Frame& shown, const frame::ExactFrame& exact) {
+  if (shown.rgb.size() != exact.rgb.size()) throw std::invalid_argument("error_image: pictures of different sizes");
+  std::vector<std::uint8_t> levels(shown.rgb.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const int difference = std::abs(static_cast<int>(shown.rgb[i]) - static_cast<int>(std::floor(exact.rgb[i] + 0.5)));
+    levels[i] = static_cast<std::uint8_t>(std::min(kErrorAmplification * difference, 255));
+  }
+  return levels;
+}
+
+}  // namespace rastertlm::report

@@ -1,0 +1,15 @@
+// Everything that is known of a frame's pixels, as an EXR file.
+#pragma once
+
+#include <string>
+
+#include "src/frame/frame.h"
+
+namespace rastertlm::report {
+
+// Channels: R G B, level / 255; Z, the depth word (a float holds 24 bits); N.X N.Y N.Z, the normal in eye space, 0
+// where nothing is seen; object.id, 0 the background; material.id; coverage.count; and with a reference, reference.R G
+// B, the exact level / 255 not rounded, and error.R G B, R - reference.R. `ideal` may be null. Throws OutputError.
+void write_exr_frame(const std::string& path, const frame::Frame& shown, const frame::ExactFrame* ideal);
+
+}  // namespace rastertlm::report

@@ -1,0 +1,50 @@
+#include "src/report/frames_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/report/error_section.h"
+
+namespace rastertlm::report {
+namespace {
+
+constexpr const char* kFrameColumns =
+    "frame,animation_frame,first_pixel_ps,last_pixel_ps,drawn_triangles,back_face_triangles,degenerate_triangles,"
+    "outside_triangles,"
+    "piece_processors,dropped_pieces,snap_fraction_bits,covered_pixels,fragment_pixels,host_flop,sent_words";
+constexpr const char* kErrorColumns[] = {
+    "compared_pixels", "missing_pixels",        "extra_pixels", "wrong_object_pixels",
+    "max_level",       "max_level_same_object", "rmse_level",   "rmse_unrounded_level",
+    "psnr_db",         "over_one_level_percent"};
+
+std::string error_fields(const reference::ErrorFigures* e) {
+  if (e == nullptr) return std::string(std::size(kErrorColumns), ',');
+  return fmt::format(",{},{},{},{},{},{},{:.6g},{:.6g},{},{:.6g}", e->compared, e->covered_missing, e->covered_extra,
+                     e->wrong_object, e->max_level, e->max_level_same_object, e->rmse_level, e->rmse_unrounded_level,
+                     e->psnr_db ? fmt::format("{:.6g}", *e->psnr_db) : "", e->over_one_level_percent);
+}
+
+}  // namespace
+
+std::string frames_csv(const run::Result& result) {
+  const std::vector<std::string> references = references_of(result);
+  std::string text = kFrameColumns;
+  for (const std::string& name : references)
+    for (const char* column : kErrorColumns) text += fmt::format(",{}_{}", name, column);
+  text += '\n';
+  for (const run::FrameFigures& f : result.frames) {
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", f.frame, f.animation_frame, f.first_pixel_ps,
+                        f.last_pixel_ps, f.drawn, f.back_faces, f.degenerate, f.outside, f.pieces, f.pieces_dropped,
+                        f.snap_fraction_bits, f.covered_pixels, f.fragments, f.host_flops, f.words_sent);
+    for (const std::string& name : references) {
+      const auto found = std::find_if(f.errors.begin(), f.errors.end(),
+                                      [&](const reference::ErrorFigures& e) { return e.reference == name; });
+      text += error_fields(found == f.errors.end() ? nullptr : &*found);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace rastertlm::report

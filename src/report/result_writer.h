@@ -1,0 +1,36 @@
+// Everything that a run leaves behind, written as it comes.
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "src/report/output_directory.h"
+#include "src/report/schema.h"
+#include "src/run/result.h"
+
+namespace rastertlm::report {
+
+class ResultWriter {
+ public:
+  explicit ResultWriter(const OutputDirectory& directory) : directory_(directory) {}
+
+  // The files of a frame: picture, channels, and error where there is a reference. What it throws is kept as well, for
+  // a simulation kernel between here and who asked for the frames may turn it into an error of its own.
+  void write_frame(const run::FramePixels& pixels);
+  // Throws what write_frame() threw, if anything.
+  void rethrow() const;
+
+  // The reports and the resolved configuration. Gives what report.json holds: the reports' figures.
+  Contents write_reports(const Contents& contents, const std::string& machine_toml, const std::string& scene_toml);
+
+ private:
+  const OutputDirectory& directory_;
+  std::exception_ptr failure_;
+};
+
+// report.txt and frames.csv of an earlier run made again from its report.json; gives the text. A file that has its
+// bytes already is not touched. Throws InputError where there is no report.json of ours, OutputError where a file
+// cannot be written: then `text` is set all the same.
+void rebuild_reports(const std::string& directory, std::string& text);
+
+}  // namespace rastertlm::report

@@ -1,0 +1,250 @@
+// What report.json, schema 1, holds: every key with its unit and its meaning, in order. Written once, for who writes
+// the file, who reads it back and who describes it. A Visitor has
+//   value(key, field, reference)      text, truth or number
+//   metric(key, field, reference)     a real that is given to six significant digits
+//   derived(key, field, value)        a value that follows from others: written, not read
+//   texts(key, field, strings)        a list of sentences
+//   object(key, description, function(Visitor&))
+//   list(key, description, vector, function(Visitor&, element))
+//   derived_object(key, description, pointer, function(Visitor&, *pointer))   null where there is none
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "src/parameter/statistic.h"
+#include "src/report/file_names.h"
+#include "src/run/result.h"
+
+namespace rastertlm::report {
+
+inline constexpr std::int64_t kSchema = 1;
+
+struct Field {
+  const char* unit;
+  parameter::StatisticKind kind;
+  const char* description;
+};
+
+// What report.json holds.
+struct Contents {
+  run::Result result;
+  bool host_figures = false;  // the section "host" is there
+};
+
+namespace schema {
+
+inline constexpr auto kCount = parameter::StatisticKind::count;
+inline constexpr auto kFormula = parameter::StatisticKind::formula;
+inline constexpr auto kSetting = parameter::StatisticKind::setting;
+
+template <class Visitor>
+void visit(Visitor& v, run::Answer& a) {
+  v.value("frame_rate_hz", {"Hz", kFormula, "new pictures a second: the update rate, for the object machine"},
+          a.frame_rate_hz);
+  v.value("display_rate_hz", {"Hz", kFormula, "frames scanned out a second: pixel clock / clocks of a frame"},
+          a.display_rate_hz);
+  v.value("update_rate_hz",
+          {"Hz", kFormula, "display rate / largest over the units of ceil(time a unit needs / time of a frame)"},
+          a.update_rate_hz);
+  v.value("required_rate_hz", {"Hz", kSetting, "video.refresh_hz"}, a.required_rate_hz);
+  v.value("sustained", {"", kFormula, "whether every displayed frame shows a new picture, at the required rate"},
+          a.sustained);
+  v.value("headroom", {"fraction", kFormula, "rate that the bottleneck allows / required rate - 1; null: no limit"},
+          a.headroom);
+  v.object("bottleneck", "what limits the rate", [&](Visitor& b) {
+    b.value("unit", {"", kFormula, "the unit that needs most of a frame"}, a.bottleneck.unit);
+    b.value("resource", {"", kFormula, "what of it"}, a.bottleneck.resource);
+    b.value("utilisation", {"fraction", kFormula, "time that it needs / time that it may take in a frame"},
+            a.bottleneck.utilisation);
+  });
+  v.value("latency_frames",
+          {"frames", kFormula, "from the start of an animation frame to the first line of its picture"},
+          a.latency_frames);
+  v.value("initial_load_frames", {"frames", kFormula, "video frames before the first picture"}, a.initial_load_frames);
+  v.texts("limits", {"", kFormula, "one sentence for everything that keeps the machine from its rate"}, a.limits);
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::UnitFigures& u) {
+  v.value("name", {"", kSetting, "the unit"}, u.name);
+  v.value("clock_hz", {"Hz", kSetting, "the unit's clock, in whose cycles the others are"}, u.clock_hz);
+  v.value("cycles", {"cycles", kCount, "of the whole run: busy + starved + blocked + idle"}, u.cycles);
+  v.value("busy", {"cycles", kCount, "in which it worked"}, u.busy);
+  v.value("starved", {"cycles", kCount, "in which it waited for its input"}, u.starved);
+  v.value("blocked", {"cycles", kCount, "in which it waited for who takes its output"}, u.blocked);
+  v.value("idle", {"cycles", kCount, "in which nothing was asked of it"}, u.idle);
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::Budget& b) {
+  v.value("name", {"", kSetting, "the budget"}, b.name);
+  v.value("used", {"as unit says", kFormula, "what is needed"}, b.used);
+  v.value("available", {"as unit says", kFormula, "what there is"}, b.available);
+  v.value("unit", {"", kSetting, "cycles, us, flop, bytes, words, processors or ns"}, b.unit);
+  v.value("fits", {"", kFormula, "used <= available"}, b.fits);
+  v.value("applies", {"", kSetting, "whether this machine depends on it; false: stated for comparison"}, b.applies);
+  v.value("source", {"", kSetting, "the formula or the paper"}, b.source);
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::LinkFigures& l) {
+  v.value("name", {"", kSetting, "the link"}, l.name);
+  v.value("bits", {"bits", kSetting, "its width"}, l.bits);
+  v.value("clock_hz", {"Hz", kSetting, "transfers of that width a second"}, l.clock_hz);
+  v.value("bytes", {"bytes", kCount, "that crossed it in the whole run"}, l.bytes);
+  v.value("peak_bytes_per_s", {"bytes/s", kFormula, "bits * clock / 8"}, l.peak_bytes_per_s);
+  v.value("achieved_bytes_per_s", {"bytes/s", kFormula, "bytes / time of the displayed frames"},
+          l.achieved_bytes_per_s);
+  v.value("active_bytes_per_s", {"bytes/s", kFormula, "bytes / time in which it was transferring"},
+          l.active_bytes_per_s);
+  v.value("utilisation", {"fraction", kFormula, "achieved / peak"}, l.utilisation);
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::Memory& m) {
+  v.value("name", {"", kSetting, "the memory, table or set of registers"}, m.name);
+  v.value("instances", {"", kSetting, "how many of them the machine has"}, m.instances);
+  v.value("words", {"words", kSetting, "of each"}, m.words);
+  v.value("bits_per_word", {"bits", kSetting, "width of a word"}, m.bits_per_word);
+  v.derived("total_bits", {"bits", kFormula, "instances * words * bits_per_word"}, m.total_bits());
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::Logic& l) {
+  v.value("name", {"", kSetting, "where it is"}, l.name);
+  v.value("count", {"as unit says", kFormula, "how many the machine has"}, l.count);
+  v.value("unit", {"", kSetting, "adders, comparators, pins, registers, ..."}, l.unit);
+}
+
+template <class Visitor>
+void visit(Visitor& v, reference::ErrorFigures& e) {
+  v.value("reference",
+          {"", kSetting,
+           "ideal: the machine's own model in double; snapped: the same given the snapped vertices; "
+           "true: perspective-correct normals, local viewer and lights"},
+          e.reference);
+  v.value("compared", {"pixels", kCount, "covered in both pictures"}, e.compared);
+  v.value("covered_missing", {"pixels", kCount, "covered in the exact picture only"}, e.covered_missing);
+  v.value("covered_extra", {"pixels", kCount, "covered in the machine's picture only"}, e.covered_extra);
+  v.value("wrong_object", {"pixels", kCount, "compared pixels that show different triangles"}, e.wrong_object);
+  v.value("max_level", {"levels", kFormula, "largest difference of a channel of the compared pixels"}, e.max_level);
+  v.value("max_level_same_object", {"levels", kFormula, "the same, of pixels that show the same triangle"},
+          e.max_level_same_object);
+  v.metric("rmse_level", {"levels", kFormula, "root of the mean square difference of the compared pixels' channels"},
+           e.rmse_level);
+  v.metric("rmse_unrounded_level",
+           {"levels", kFormula, "the same with the exact level not rounded: holds the display's own rounding"},
+           e.rmse_unrounded_level);
+  v.metric("psnr_db", {"dB", kFormula, "20 log10(255 / rmse_level); null where that is infinite"}, e.psnr_db);
+  v.metric("over_one_level_percent",
+           {"%", kFormula, "compared pixels with a channel that differs by more than one level"},
+           e.over_one_level_percent);
+}
+
+// The figures against one of the references, or null.
+inline reference::ErrorFigures* find_error(run::FrameFigures& frame, const std::string& reference) {
+  const auto found = std::find_if(frame.errors.begin(), frame.errors.end(),
+                                  [&](const reference::ErrorFigures& e) { return e.reference == reference; });
+  return found == frame.errors.end() ? nullptr : &*found;
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::FrameFigures& f) {
+  v.value("frame", {"", kCount, "the displayed frame, from 0"}, f.frame);
+  v.derived("file", {"", kFormula, "what the display shows"}, picture_name(f.frame));
+  v.derived("channels_file", {"", kFormula, "everything that is known of each pixel"}, channels_name(f.frame));
+  v.derived("error_file", {"", kFormula, "absolute error against the ideal picture, amplified; empty: not measured"},
+            find_error(f, "ideal") != nullptr ? error_name(f.frame) : std::string());
+  v.value("animation_frame", {"", kFormula, "the pose that it shows"}, f.animation_frame);
+  v.value("first_pixel_ps", {"ps", kCount, "first pixel, since the first displayed frame's retrace began"},
+          f.first_pixel_ps);
+  v.value("last_pixel_ps", {"ps", kCount, "last pixel, since the same"}, f.last_pixel_ps);
+  v.value("drawn", {"triangles", kCount, "that face the viewer and have an area"}, f.drawn);
+  v.value("back_faces", {"triangles", kCount, "that face away"}, f.back_faces);
+  v.value("degenerate", {"triangles", kCount, "of zero area, as made or after snapping"}, f.degenerate);
+  v.value("outside", {"triangles", kCount, "wholly outside the view volume"}, f.outside);
+  v.value("pieces", {"processors", kCount, "more of them taken by what clipping made"}, f.pieces);
+  v.value("pieces_dropped", {"pieces", kCount, "that found no processor"}, f.pieces_dropped);
+  v.value("snap_fraction_bits", {"bits", kFormula, "of a snapped vertex' coordinates"}, f.snap_fraction_bits);
+  v.value("covered_pixels", {"pixels", kCount, "that show an object"}, f.covered_pixels);
+  v.value("fragments", {"pixels", kCount, "of all objects, hidden ones included"}, f.fragments);
+  v.value("host_flops", {"flop", kCount, "of all computation units; 0 where nothing was computed for this frame"},
+          f.host_flops);
+  v.value("words_sent", {"words", kCount, "written to the object boards for this frame"}, f.words_sent);
+  v.derived_object("error", "the figures of errors[] against the reference \"ideal\"", find_error(f, "ideal"),
+                   [](Visitor& e, reference::ErrorFigures& figures) { visit(e, figures); });
+  v.list("errors", "distance from each exact picture", f.errors,
+         [](Visitor& e, reference::ErrorFigures& figures) { visit(e, figures); });
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::Modelled& m) {
+  v.object("object_processors", "of the machine", [&](Visitor& o) {
+    o.value("available", {"processors", kSetting, "that the machine has"}, m.processors_available);
+    o.value("used", {"processors", kCount, "that hold an object"}, m.processors_used);
+    o.value("instantiated", {"processors", kCount, "that were simulated"}, m.processors_instantiated);
+  });
+  v.object("lines", "scan lines of the boards", [&](Visitor& o) {
+    o.value("total", {"lines", kFormula, "scan lines * boards"}, m.lines_total);
+    o.value("evaluated", {"lines", kCount, "on which a board had something to do"}, m.lines_evaluated);
+  });
+  v.object("coefficients", "words written to the boards", [&](Visitor& o) {
+    o.value("total", {"words", kFormula, "that a host which sends everything would have written"},
+            m.coefficients_total);
+    o.value("sent", {"words", kCount, "that were written"}, m.coefficients_sent);
+  });
+  v.object("objects", "triangles of the scene", [&](Visitor& o) {
+    o.value("made", {"triangles", kCount, "of the scene"}, m.objects_made);
+    o.value("degenerate", {"triangles", kCount, "of zero area as made"}, m.objects_degenerate);
+    o.value("dropped", {"triangles", kCount, "that found no processor"}, m.objects_dropped);
+  });
+  v.object("fragments", "pixels of objects, in the decision unit", [&](Visitor& o) {
+    o.value("in", {"fragments", kCount, "kept + hidden"}, m.fragments_in);
+    o.value("kept", {"fragments", kCount, "nearest at their pixel"}, m.fragments_kept);
+    o.value("hidden", {"fragments", kCount, "behind another"}, m.fragments_hidden);
+  });
+  v.texts("left_out", {"", kFormula, "what was not simulated because the scene does not need it"}, m.left_out);
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::HostFigures& h) {
+  v.value("wall_seconds", {"s", kCount, "that the simulation took"}, h.wall_seconds);
+  v.value("simulated_clocks_per_second", {"1/s", kFormula, "pixel clocks simulated a second"},
+          h.simulated_clocks_per_second);
+  v.value("peak_memory_bytes", {"bytes", kCount, "of the simulator's process"}, h.peak_memory_bytes);
+}
+
+template <class Visitor, class T>
+void visit_list(Visitor& v, const char* key, const char* description, std::vector<T>& list) {
+  v.list(key, description, list, [](Visitor& inner, T& element) { visit(inner, element); });
+}
+
+template <class Visitor>
+void visit(Visitor& v, Contents& contents) {
+  run::Result& r = contents.result;
+  v.derived("schema", {"", kSetting, "version of these keys"}, kSchema);
+  v.value("platform", {"", kSetting, "the kind of machine"}, r.platform);
+  v.value("config_digest", {"", kFormula, "SHA-256 of the resolved machine, without origins"}, r.config_digest);
+  v.value("scene_digest", {"", kFormula, "SHA-256 of the scene and of its mesh files"}, r.scene_digest);
+  v.value("frames", {"frames", kSetting, "displayed frames that were simulated"}, r.frame_count);
+  v.object("video", "the picture", [&](Visitor& o) {
+    o.value("columns", {"pixels", kSetting, "of a line"}, r.columns);
+    o.value("lines", {"lines", kSetting, "of a frame"}, r.lines);
+    o.value("obtained_refresh_hz", {"Hz", kFormula, "display rate in whole pixel clocks"}, r.obtained_refresh_hz);
+  });
+  v.object("answer", "does the machine show the scene at its rate", [&](Visitor& o) { visit(o, r.answer); });
+  visit_list(v, "units", "where the cycles of each unit go, over the whole run", r.units);
+  visit_list(v, "budgets", "what is needed beside what there is", r.budgets);
+  visit_list(v, "links", "bandwidth", r.links);
+  visit_list(v, "memories", "bits", r.memories);
+  visit_list(v, "logic", "adders, comparators, pins", r.logic);
+  visit_list(v, "images", "the displayed frames", r.frames);
+  v.object("modelled", "what was simulated", [&](Visitor& o) { visit(o, r.modelled); });
+  v.texts("warnings", {"", kFormula, "what may not be meant"}, r.warnings);
+  v.optional_object("host", "of the simulation itself; only with --host-figures", contents.host_figures,
+                    [&](Visitor& o) { visit(o, r.host); });
+}
+
+}  // namespace schema
+}  // namespace rastertlm::report

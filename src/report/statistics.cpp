@@ -1,0 +1,89 @@
+#include "src/report/statistics.h"
+
+#include "src/report/schema.h"
+#include "src/report/text_table.h"
+
+namespace rastertlm::report {
+namespace {
+
+class Describer {
+ public:
+  Describer(std::string path, std::vector<parameter::Statistic>& found) : path_(std::move(path)), found_(found) {}
+
+  template <class T>
+  void value(const char* key, const Field& field, const T&) {
+    add(key, field);
+  }
+  template <class T>
+  void metric(const char* key, const Field& field, const T&) {
+    add(key, field);
+  }
+  template <class T>
+  void derived(const char* key, const Field& field, const T&) {
+    add(key, field);
+  }
+  void texts(const char* key, const Field& field, const std::vector<std::string>&) {
+    add(std::string(key) + "[]", field);
+  }
+  template <class Inside>
+  void object(const char* key, const char*, const Inside& inside) {
+    Describer describer(path_ + key + '.', found_);
+    inside(describer);
+  }
+  template <class T, class Inside>
+  void list(const char* key, const char*, std::vector<T>&, const Inside& inside) {
+    T element{};
+    Describer describer(path_ + key + "[].", found_);
+    inside(describer, element);
+  }
+  // What follows from others of the file is described there.
+  template <class T, class Inside>
+  void derived_object(const char* key, const char* description, T*, const Inside& inside) {
+    add(key, {"", parameter::StatisticKind::formula, description});
+    T element{};
+    Describer describer(path_ + key + '.', found_);
+    inside(describer, element);
+  }
+  template <class Inside>
+  void optional_object(const char* key, const char* description, bool, const Inside& inside) {
+    object(key, description, inside);
+  }
+
+ private:
+  void add(const std::string& key, const Field& field) {
+    found_.push_back({path_ + key, field.unit, field.kind, field.description});
+  }
+  std::string path_;
+  std::vector<parameter::Statistic>& found_;
+};
+
+const char* kind_text(parameter::StatisticKind kind) {
+  switch (kind) {
+    case parameter::StatisticKind::count:
+      return "count";
+    case parameter::StatisticKind::formula:
+      return "formula";
+    case parameter::StatisticKind::setting:
+      return "setting";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<parameter::Statistic> statistics() {
+  std::vector<parameter::Statistic> found;
+  Contents contents;
+  Describer describer("", found);
+  schema::visit(describer, contents);
+  return found;
+}
+
+std::string statistics_text() {
+  TextTable table({{"name in report.json"}, {"unit"}, {"kind"}, {"meaning"}});
+  for (const parameter::Statistic& s : statistics())
+    table.row({s.name, s.unit.empty() ? "-" : s.unit, kind_text(s.kind), s.description});
+  return table.text();
+}
+
+}  // namespace rastertlm::report

@@ -1,0 +1,230 @@
+#include "src/report/text_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/report/error_image.h"
+#include "src/report/error_section.h"
+#include "src/report/number_text.h"
+#include "src/report/text_table.h"
+
+namespace rastertlm::report {
+namespace {
+
+constexpr const char* kIndent = "  ";
+
+std::string heading(const std::string& title) { return '\n' + title + '\n' + std::string(title.size(), '=') + '\n'; }
+std::string sentence_line(const std::string& sentence) { return kIndent + sentence + '\n'; }
+
+std::string percent_of(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return "-";
+  return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::string limits_section(const run::Result& result) {
+  const run::Answer& a = result.answer;
+  std::string text = heading("What limits it");
+  if (a.limits.empty()) text += sentence_line("Nothing keeps the machine from its rate.");
+  for (const std::string& limit : a.limits) text += sentence_line(limit);
+  TextTable table({{"rate"}, {"Hz", Align::right}, {"meaning"}}, kIndent);
+  table.row({"required", rate(a.required_rate_hz), "video.refresh_hz"});
+  table.row({"display", fmt::format("{:.6g}", a.display_rate_hz), "frames scanned out, in whole pixel clocks"});
+  table.row({"update", fmt::format("{:.6g}", a.update_rate_hz), "new pictures"});
+  text += table.text();
+  text += sentence_line(
+      fmt::format("From the start of an animation frame to the first line of its picture: {}. First picture after {} "
+                  "of loading.",
+                  counted(a.latency_frames, "frame", "frames"), counted(a.initial_load_frames, "frame", "frames")));
+  return text;
+}
+
+std::string units_section(const run::Result& result) {
+  if (result.units.empty()) return "";
+  TextTable table({{"unit"},
+                   {"clock", Align::right},
+                   {"cycles", Align::right},
+                   {"busy", Align::right},
+                   {"", Align::right},
+                   {"starved", Align::right},
+                   {"", Align::right},
+                   {"blocked", Align::right},
+                   {"", Align::right},
+                   {"idle", Align::right},
+                   {"", Align::right}},
+                  kIndent);
+  for (const run::UnitFigures& u : result.units)
+    table.row({u.name, frequency(u.clock_hz), grouped(u.cycles), grouped(u.busy), percent_of(u.busy, u.cycles),
+               grouped(u.starved), percent_of(u.starved, u.cycles), grouped(u.blocked), percent_of(u.blocked, u.cycles),
+               grouped(u.idle), percent_of(u.idle, u.cycles)});
+  return heading(fmt::format("Where the cycles go ({}, cycles of each unit's own clock)",
+                             counted(result.frame_count, "displayed frame", "displayed frames"))) +
+         table.text();
+}
+
+std::string fits_text(const run::Budget& budget) {
+  const std::string text = budget.fits ? "yes" : "NO";
+  return budget.applies ? text : '(' + text + ')';
+}
+
+std::string budgets_section(const run::Result& result) {
+  if (result.budgets.empty()) return "";
+  TextTable table({{"budget"},
+                   {"used", Align::right},
+                   {"available", Align::right},
+                   {"unit"},
+                   {"of it", Align::right},
+                   {"fits"},
+                   {"source"}},
+                  kIndent);
+  for (const run::Budget& b : result.budgets)
+    table.row({b.name, quantity(b.used), quantity(b.available), b.unit,
+               b.available > 0.0 ? percent(b.used / b.available) : "-", fits_text(b), b.source});
+  return heading("Budgets") + table.text() +
+         sentence_line("In brackets: this machine does not depend on it; stated for comparison.");
+}
+
+std::string links_section(const run::Result& result) {
+  if (result.links.empty()) return "";
+  TextTable table({{"link"},
+                   {"width", Align::right},
+                   {"clock", Align::right},
+                   {"moved", Align::right},
+                   {"peak", Align::right},
+                   {"while active", Align::right},
+                   {"over the run", Align::right},
+                   {"used", Align::right}},
+                  kIndent);
+  for (const run::LinkFigures& l : result.links)
+    table.row({l.name, counted(l.bits, "bit", "bits"), frequency(l.clock_hz), grouped(l.bytes) + " B",
+               bytes_per_second(l.peak_bytes_per_s), bytes_per_second(l.active_bytes_per_s),
+               bytes_per_second(l.achieved_bytes_per_s), percent(l.utilisation)});
+  return heading("Bandwidth") + table.text();
+}
+
+std::string memory_section(const run::Result& result) {
+  std::string text;
+  if (!result.memories.empty()) {
+    TextTable table({{"memory"},
+                     {"instances", Align::right},
+                     {"words", Align::right},
+                     {"bits a word", Align::right},
+                     {"total", Align::right}},
+                    kIndent);
+    std::uint64_t total = 0;
+    for (const run::Memory& m : result.memories) {
+      table.row({m.name, grouped(m.instances), grouped(m.words), grouped(m.bits_per_word), bits(m.total_bits())});
+      total += m.total_bits();
+    }
+    table.row({"together", "", "", "", bits(total)});
+    text += heading("Memory that the machine has") + table.text();
+  }
+  if (!result.logic.empty()) {
+    TextTable table({{"logic"}, {"count", Align::right}, {"unit"}}, kIndent);
+    for (const run::Logic& l : result.logic) table.row({l.name, grouped(l.count), l.unit});
+    text += heading("Logic that the machine has") + table.text();
+  }
+  return text;
+}
+
+std::string pictures_section(const run::Result& result) {
+  if (result.frames.empty()) return "";
+  const run::FrameFigures& f = result.frames.front();
+  TextTable table({{fmt::format("frame {}", f.frame)}, {"", Align::right}, {"unit"}}, kIndent);
+  const auto add = [&](const char* what, std::uint64_t count, const char* unit) {
+    table.row({what, grouped(count), unit});
+  };
+  add("made", result.modelled.objects_made, "triangles");
+  add("drawn", f.drawn, "triangles");
+  add("face away", f.back_faces, "triangles");
+  add("of zero area", f.degenerate, "triangles");
+  add("outside the view", f.outside, "triangles");
+  add("more processors for clipped pieces", f.pieces, "processors");
+  add("pieces dropped", f.pieces_dropped, "pieces");
+  add("fraction bits of snapped vertices", static_cast<std::uint64_t>(std::max(f.snap_fraction_bits, 0)), "bits");
+  add("covered", f.covered_pixels, "pixels");
+  add("fragments, hidden ones included", f.fragments, "pixels");
+  add("host operations", f.host_flops, "flop");
+  add("words sent to the boards", f.words_sent, "words");
+  std::string text = heading("What the picture is made of") + table.text();
+  if (result.frames.size() > 1) text += sentence_line(fmt::format("Every frame is a row of {}.", kFramesCsv));
+  return text;
+}
+
+std::string modelled_section(const run::Result& result) {
+  const run::Modelled& m = result.modelled;
+  std::string text = heading("What was modelled");
+  text += sentence_line(fmt::format("Object processors: {} in the machine, {} hold an object, {} simulated.",
+                                    grouped(m.processors_available), grouped(m.processors_used),
+                                    grouped(m.processors_instantiated)));
+  text += sentence_line(fmt::format("Scan lines of boards: {} of {} had something to do.", grouped(m.lines_evaluated),
+                                    grouped(m.lines_total)));
+  text += sentence_line(fmt::format("Coefficient words: {} sent of {} that there are.", grouped(m.coefficients_sent),
+                                    grouped(m.coefficients_total)));
+  text +=
+      sentence_line(fmt::format("Triangles: {} made, {} of them of zero area, {} without a processor.",
+                                grouped(m.objects_made), grouped(m.objects_degenerate), grouped(m.objects_dropped)));
+  text += sentence_line(fmt::format("Fragments: {} into the decision unit = {} kept + {} hidden.",
+                                    grouped(m.fragments_in), grouped(m.fragments_kept), grouped(m.fragments_hidden)));
+  for (const std::string& sentence : m.left_out) text += sentence_line("Left out: " + sentence);
+  return text;
+}
+
+std::string host_section(const Contents& contents) {
+  if (!contents.host_figures) return "";
+  const run::HostFigures& h = contents.result.host;
+  return heading("The simulation itself") +
+         sentence_line(fmt::format("{:.3g} s, {} simulated pixel clocks a second, {:.4g} MB at most.", h.wall_seconds,
+                                   quantity(std::floor(h.simulated_clocks_per_second)),
+                                   static_cast<double>(h.peak_memory_bytes) / 1e6));
+}
+
+std::string warnings_section(const run::Result& result) {
+  if (result.warnings.empty()) return "";
+  std::string text = heading("Warnings");
+  for (const std::string& warning : result.warnings) text += sentence_line(warning);
+  return text;
+}
+
+std::string inputs_section(const run::Result& result) {
+  return heading("Inputs") + sentence_line("machine  " + result.config_digest) +
+         sentence_line("scene    " + result.scene_digest) +
+         sentence_line(fmt::format("SHA-256; the values are in {} and {}.", kResolvedMachine, kResolvedScene));
+}
+
+}  // namespace
+
+std::string answer_sentence(const run::Result& result) {
+  const run::Answer& a = result.answer;
+  std::string text =
+      fmt::format("{}x{} at {} Hz: {}, {:.1f} updates/s", result.columns, result.lines, rate(a.required_rate_hz),
+                  a.sustained ? "sustained" : "NOT sustained", a.update_rate_hz);
+  if (a.update_rate_hz < 0.999 * a.display_rate_hz)
+    text += fmt::format(" on a display that scans out {:.1f} times a second", a.display_rate_hz);
+  if (a.bottleneck.unit.empty()) return text + "; nothing limits it.";
+  text += fmt::format("; limited by {}: {}, {} of what a frame allows", a.bottleneck.unit, a.bottleneck.resource,
+                      percent(a.bottleneck.utilisation));
+  if (a.headroom >= 0.0) return text + fmt::format("; headroom {}.", percent(a.headroom));
+  return text + fmt::format("; short of the required rate by {}.", percent(-a.headroom));
+}
+
+std::string text_report(const Contents& contents) {
+  const run::Result& result = contents.result;
+  std::string text = answer_sentence(result) + '\n';
+  text += fmt::format("Machine: {}. {} simulated.\n", result.platform,
+                      counted(result.frame_count, "displayed frame", "displayed frames"));
+  text += warnings_section(result);
+  text += limits_section(result);
+  text += units_section(result);
+  text += budgets_section(result);
+  text += links_section(result);
+  text += error_section(result);
+  text += memory_section(result);
+  text += pictures_section(result);
+  text += modelled_section(result);
+  text += inputs_section(result);
+  text += host_section(contents);
+  return text;
+}
+
+}  // namespace rastertlm::report
