@@ -6,7 +6,7 @@ namespace rastertlm::object_processor {
 
 namespace {
 
-__extension__ typedef __int128 Wide;
+__extension__ using Wide = __int128;
 
 // An edge as an exact linear function of the pixel, a x + b y + c with y from 0, that stays inside the word on the
 // whole screen.
