@@ -18,6 +18,9 @@ enum class ObjectKind { teapot, uv_sphere, mesh, triangles };
 enum class AnimationKind { spin, orbit, keys };
 enum class LightingModel { blinn, phong };
 
+// World units: coordinates stay within it, so that their differences keep what a pixel needs.
+inline constexpr double kFarthest = 1e9;
+
 // One key frame: where the thing is at that frame. Between keys, positions and angles go linearly.
 struct KeyDescription {
   double frame = 0.0;
@@ -28,7 +31,7 @@ struct KeyDescription {
 
 struct AnimationDescription {
   AnimationKind kind = AnimationKind::spin;
-  Triple axis{0, 0, 1};       // spin, orbit: through `centre`
+  Triple axis{0, 0, 1};  // spin, orbit: through `centre`
   Triple centre{0, 0, 0};
   double deg_per_frame = 1.0;  // spin, orbit
   std::vector<KeyDescription> keys;
@@ -73,14 +76,14 @@ struct ObjectDescription {
   Triple rotate_deg{0, 0, 0};  // about x, then y, then z
   Triple scale{1, 1, 1};
   bool two_sided = false;
-  std::int64_t segments = 4;   // teapot: quads a patch and direction
-  std::int64_t patches = 28;   // teapot: 28 or 32
-  double radius = 1.0;         // uv_sphere
+  std::int64_t segments = 4;  // teapot: quads a patch and direction
+  std::int64_t patches = 28;  // teapot: 28 or 32
+  double radius = 1.0;        // uv_sphere
   std::int64_t slices = 12;
   std::int64_t stacks = 8;
-  std::string file;            // mesh
-  std::vector<Triple> positions;       // triangles: three a triangle, or indexed by `indices`
-  std::vector<Triple> normals;         // one a position, or none
+  std::string file;               // mesh
+  std::vector<Triple> positions;  // triangles: three a triangle, or indexed by `indices`
+  std::vector<Triple> normals;    // one a position, or none
   std::vector<IndexTriple> indices;
   std::vector<AnimationDescription> animation;
   void declare(parameter::Table& table);
@@ -88,8 +91,8 @@ struct ObjectDescription {
 
 struct SceneDescription {
   std::int64_t schema = 1;
-  Triple background{0, 0, 0};       // levels 0..255
-  Triple ambient_light{1, 1, 1};    // Ia, a channel
+  Triple background{0, 0, 0};                  // levels 0..255
+  Triple ambient_light{1, 1, 1};               // Ia, a channel
   LightingModel model = LightingModel::blinn;  // lighting.model
   bool specular_gate = false;                  // lighting.specular_gate
   CameraDescription camera;
