@@ -1,5 +1,5 @@
-// Whoever fills the tables: 68000s or wired sequencers, one for each kind of table, all at work at the same time. The module decides when; the
-// words come from the incremental algorithms of table_filler.h.
+// Whoever fills the tables: 68000s or wired sequencers, one for each kind of table, all at work at the same time. The
+// module decides when; the words come from the incremental algorithms of table_filler.h.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -32,13 +32,17 @@ class TableLoaderModule : public sc_core::sc_module {
   static constexpr std::size_t kEngines = 3;
 
   // `materials`: of the machine's, those to load. `retrace_ps`: the time that a load of `when = "retrace"` has.
-  TableLoaderModule(const sc_core::sc_module_name& name, DeferredShader& shader, const LoaderParameters& parameters, std::vector<std::size_t> materials,
-                    std::uint64_t retrace_ps, const sc_core::sc_event& swapped, std::array<Engine, kEngines> engines);
+  TableLoaderModule(const sc_core::sc_module_name& name, DeferredShader& shader, const LoaderParameters& parameters,
+                    std::vector<std::size_t> materials, std::uint64_t retrace_ps, const sc_core::sc_event& swapped,
+                    std::array<Engine, kEngines> engines);
 
   std::uint64_t words_sent() const { return words_sent_; }
   // The longest load after the first, of each engine, in seconds.
   double longest_load_seconds() const { return longest_load_seconds_; }
-  const stream::Occupancy& occupancy(std::size_t engine, std::uint64_t end_ps) { return engines_[engine].meter.close(end_ps); }
+  const stream::Occupancy& occupancy(std::size_t engine, std::uint64_t end_ps) {
+    return engines_[engine].meter.close(end_ps);
+  }
+  const Clock& clock(std::size_t engine) const { return engines_[engine].meter.clock(); }
 
  private:
   void run_guarded();
@@ -58,7 +62,7 @@ class TableLoaderModule : public sc_core::sc_module {
   const sc_core::sc_event& swapped_;
   std::array<Engine, kEngines> engines_;
 
-  bool pending_ = false;   // lights have been received and not yet looked at
+  bool pending_ = false;  // lights have been received and not yet looked at
   bool changed_ = false;
   bool first_ = true;
   bool load_at_retrace_ = false;    // the next retrace that copies loads the program

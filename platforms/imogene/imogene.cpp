@@ -144,6 +144,7 @@ void Imogene::build_shading() {
   const auto engine = [&](const char* name, double mhz, std::int64_t bits) {
     const Clock clock = sequencer ? Clock::from_period_ns(name, machine_.loader.sequencer_clock_ns) : Clock::from_frequency_hz(name, static_cast<std::uint64_t>(mhz * 1e6));
     stream::Link& link = add_link(fmt::format("{} to tables", name), static_cast<unsigned>(bits), clock);
+    table_links_.push_back(&link);
     return shading::TableLoaderModule::Engine{&link, stream::OccupancyMeter(clock)};
   };
   table_loader_ = std::make_unique<shading::TableLoaderModule>(
@@ -221,10 +222,18 @@ void Imogene::show(std::uint64_t frame, const frame::Frame& pixels, std::uint64_
       shown_.words += computation_units_[k]->updates().back().words;
     }
   }
+  if (frame == 0) reset_host_links();
   const std::uint64_t frame_ps = timing_.clock.picoseconds(timing_.frame * frame);
   shown_.first_pixel_ps = frame_ps + timing_.clock.picoseconds(timing_.first_pixel(0) + pixel_latency_);
   shown_.last_pixel_ps = last_pixel_ps - start_ps() + timing_.clock.picoseconds(Cycles(pixels.columns - 1));
   if (sink_) sink_(shown_, pixels);
+}
+
+// What crossed the links before the first picture is the initial load: bandwidth counts from there. The display's links start with it.
+void Imogene::reset_host_links() {
+  for (stream::Link* link : host_links_) link->reset();
+  for (stream::Link* link : bus_links_) link->reset();
+  for (stream::Link* link : table_links_) link->reset();
 }
 
 void Imogene::run() {

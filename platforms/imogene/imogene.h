@@ -86,6 +86,7 @@ class Imogene {
   void bind_hosts();
   void bind_display();
   void show(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps);
+  void reset_host_links();
   void check_identities();
   stream::Link& add_link(const std::string& name, unsigned bits, const Clock& clock);
 
@@ -105,6 +106,7 @@ class Imogene {
   std::vector<stream::Link*> host_links_;   // to unit k, from whoever feeds it
   std::vector<stream::Link*> bus_links_;    // of unit k
   std::vector<stream::Link*> board_links_;  // of board k
+  std::vector<stream::Link*> table_links_;
   std::vector<std::unique_ptr<host::Computation>> computations_;
   std::vector<object_processor::ObjectBoard> boards_;
   decision_unit::DecisionUnit decision_;

@@ -1,0 +1,130 @@
+#include "src/run/imogene_figures.h"
+
+#include <fmt/format.h>
+
+#include "modules/object_processor/microprogram.h"
+#include "src/run/imogene_budgets.h"
+
+namespace rastertlm::run {
+namespace {
+
+using imogene::Imogene;
+
+UnitFigures figures(const std::string& name, const Clock& clock, const stream::Occupancy& occupancy) {
+  occupancy.check(name);
+  return {name, clock.frequency_hz(), occupancy.cycles, occupancy.busy, occupancy.starved, occupancy.blocked, occupancy.idle};
+}
+
+// A unit of the display side works in step with the pixel clock: it is busy or idle, and never waits.
+UnitFigures display_unit(const std::string& name, const Imogene& platform, std::uint64_t frames, std::uint64_t busy) {
+  const std::uint64_t cycles = frames * platform.timing().frame.count();
+  return figures(name, platform.timing().clock, {cycles, busy, 0, 0, cycles - busy});
+}
+
+std::uint64_t lines_of(const Imogene& platform) { return static_cast<std::uint64_t>(platform.machine().video.lines); }
+std::uint64_t columns_of(const Imogene& platform) { return static_cast<std::uint64_t>(platform.machine().video.columns); }
+
+}  // namespace
+
+std::vector<UnitFigures> unit_figures(Imogene& platform) {
+  std::vector<UnitFigures> units;
+  const std::uint64_t end = platform.end_ps();
+  units.push_back(figures("animation unit", platform.cost().clock(), platform.animation_unit().occupancy(end)));
+  for (std::size_t k = 0; k < platform.computation_units().size(); ++k)
+    units.push_back(figures(fmt::format("computation unit {}", k), platform.cost().clock(), platform.computation_units()[k]->occupancy(end)));
+  const std::uint64_t line_start = object_processor::line_start_cycles(platform.machine().object_processor.slices()).count();
+  const std::uint64_t shown = platform.decision_module().lines_sent() / lines_of(platform);
+  for (std::size_t k = 0; k < platform.board_modules().size(); ++k) {
+    const auto& board = *platform.board_modules()[k];
+    units.push_back(display_unit(fmt::format("object board {}", k), platform, shown,
+                                 board.copies() * object_processor::frame_start_cycles().count() + board.lines_sent() * (line_start + columns_of(platform))));
+  }
+  const std::uint64_t pixels = platform.decision_module().lines_sent() * columns_of(platform);
+  for (const char* name : {"decision unit", "shading processor", "video output"}) units.push_back(display_unit(name, platform, shown, pixels));
+  const char* const engines[] = {"dot product loader", "diffuse loader", "specular loader"};
+  for (std::size_t engine = 0; engine < shading::TableLoaderModule::kEngines; ++engine)
+    units.push_back(figures(engines[engine], platform.table_loader().clock(engine), platform.table_loader().occupancy(engine, end)));
+  return units;
+}
+
+std::vector<LinkFigures> link_figures(Imogene& platform) {
+  std::vector<LinkFigures> figures;
+  const double seconds = static_cast<double>(platform.end_ps() - platform.start_ps()) * 1e-12;
+  for (const stream::Link& link : platform.links()) {
+    LinkFigures f{link.name(), link.bits(), link.clock().frequency_hz(), link.bytes(), link.peak_bytes_per_second()};
+    const double bytes = static_cast<double>(link.bytes());
+    const double active = link.clock().seconds(link.active());
+    f.achieved_bytes_per_s = bytes / seconds;
+    f.active_bytes_per_s = active > 0.0 ? bytes / active : 0.0;
+    f.utilisation = f.achieved_bytes_per_s / f.peak_bytes_per_s;
+    figures.push_back(f);
+  }
+  return figures;
+}
+
+std::vector<Memory> memory_figures(Imogene& platform) {
+  const imogene::Machine& machine = platform.machine();
+  const std::uint64_t processors = machine.processors();
+  const auto word_bits = static_cast<std::uint64_t>(machine.object_processor.word_bits);
+  std::vector<Memory> memories;
+  memories.push_back({"loading RAMs", processors * object_processor::kElementaryProcessors, 3, word_bits});
+  memories.push_back({"backup RAMs", processors * object_processor::kElementaryProcessors, 3, word_bits});
+  const auto logic = object_processor::triangle_processor_logic(machine.object_processor, machine.material_bits());
+  memories.push_back({"object processor registers", processors, 1, logic.register_bits});
+  const decision_unit::LinkWidth width{word_bits, static_cast<std::uint64_t>(machine.object_processor.normal_bits), machine.material_bits()};
+  const auto decision = decision_unit::decision_logic(machine.decision_unit, processors, width, static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
+  memories.push_back({"decision unit registers", 1, decision.register_bits, 1});
+  for (const shading::MemorySize& memory : platform.shader().memories()) memories.push_back({memory.name, memory.instances, memory.words, memory.bits_per_word});
+  return memories;
+}
+
+std::vector<Logic> logic_figures(Imogene& platform) {
+  const imogene::Machine& machine = platform.machine();
+  const std::uint64_t processors = machine.processors();
+  const auto logic = object_processor::triangle_processor_logic(machine.object_processor, machine.material_bits());
+  const decision_unit::LinkWidth width{static_cast<std::uint64_t>(machine.object_processor.word_bits), static_cast<std::uint64_t>(machine.object_processor.normal_bits),
+                                       machine.material_bits()};
+  const auto decision = decision_unit::decision_logic(machine.decision_unit, processors, width, static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
+  std::vector<Logic> figures;
+  figures.push_back({"object processors: adder slices", processors * logic.adders, "adders"});
+  figures.push_back({"object processors: adder width", processors * logic.adder_bits, "bits"});
+  figures.push_back({"object processors: shifters", processors * logic.shifters, "shifters"});
+  figures.push_back({"decision unit: depth comparators", decision.comparators, "comparators"});
+  figures.push_back({"link between processors", width.bits(), "bits"});
+  figures.push_back({"link between processors: one direction", decision.link_pins, "pins"});
+  figures.push_back({"object processor: link pins", decision.processor_pins, "pins"});
+  figures.push_back({"decision tree node: link pins", decision.node_pins, "pins"});
+  figures.push_back({"decision unit: latency", platform.decision_latency().count(), "pixel clocks"});
+  figures.push_back({"pixel to level: latency", platform.pixel_latency().count(), "pixel clocks"});
+  for (const shading::LogicSize& size : platform.shader().logic()) figures.push_back({"shading: " + size.name, size.instances, fmt::format("of {} bits", size.bits)});
+  return figures;
+}
+
+Modelled modelled_figures(Imogene& platform, const scene::Scene& scene, bool model_everything) {
+  Modelled m;
+  m.processors_available = platform.machine().processors();
+  for (const auto& owners : platform.slots().boards) m.processors_used += owners.size();
+  m.objects_made = scene.triangle_count();
+  for (const scene::Object& object : scene.objects) m.objects_degenerate += object.mesh.degenerate;
+  m.objects_dropped = platform.slots().dropped;
+  for (const auto& unit : platform.computation_units()) {
+    m.coefficients_sent += unit->words_sent();
+  }
+  m.coefficients_total = m.processors_used * object_processor::kWords * platform.updates();
+  for (const auto& board : platform.boards()) {
+    m.processors_instantiated += model_everything ? board.processors() : board.slots_in_use();
+    m.lines_evaluated += board.counters().lines_evaluated;
+    m.fragments_in += board.counters().fragments_in;
+  }
+  m.lines_total = platform.boards().size() * platform.decision_module().lines_sent();
+  m.fragments_kept = platform.decision().counters().fragments_kept;
+  m.fragments_hidden = m.fragments_in - m.fragments_kept;
+  if (!model_everything) {
+    m.left_out.push_back(fmt::format("{} of {} object processors show nothing and are not evaluated", m.processors_available - m.processors_instantiated,
+                                     m.processors_available));
+    m.left_out.push_back(fmt::format("{} of {} lines of boards hold nothing and are not evaluated", m.lines_total - m.lines_evaluated, m.lines_total));
+  }
+  return m;
+}
+
+}  // namespace rastertlm::run
