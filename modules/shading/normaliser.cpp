@@ -29,7 +29,8 @@ Normaliser::Normaliser(const ShadingParameters& parameters, std::int64_t normal_
 
 NormalisedNormal Normaliser::normalise(std::uint32_t word_x, std::uint32_t word_y, std::uint32_t word_z) const {
   const std::array<SignMagnitude, 3> in{read(word_x), read(word_y), read(word_z)};
-  const std::uint32_t squares = sum_of_squares(in[0].magnitude, in[1].magnitude, in[2].magnitude);
+  std::uint32_t squares = 0;
+  for (const SignMagnitude& component : in) squares += square(component.magnitude, component.negative ? 1 : 0);
   const std::uint32_t root = inverse_root(squares);
   NormalisedNormal out;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -36,10 +36,13 @@ class Normaliser {
     return {word & magnitude_mask_, ((word >> magnitude_bits_) & 1U) != 0};
   }
 
-  // Sum of squares: 2 w + 2 bits. Centred: sum of (2m+1)^2 / 4, floored, which is the sum of m (m+1).
-  std::uint32_t sum_of_squares(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-    const std::uint32_t half = centred_ ? 1 : 0;
-    return x * (x + half) + y * (y + half) + z * (z + half);
+  // A component's square, so that the sum of three has 2 w + 2 bits. Centred: the word stands for m + 1/2, and (2m+1)^2
+  // / 4 floored is m (m+1). Literal: the squarer takes the word in two's complement, so that a negative one, ~m, gives
+  // (m+1)^2; of the readings that the paper leaves open this is the one that reproduces the literal columns of
+  // numerics.md section 5 (m^2 for both signs is up to 15 % off).
+  std::uint32_t square(std::uint32_t magnitude, std::uint32_t negative) const {
+    const std::uint32_t word = magnitude + (centred_ ? 0 : negative);
+    return word * (word + (centred_ ? 1 : 0));
   }
   std::uint32_t inverse_root(std::uint32_t squares) const { return rom_[squares >> address_shift_]; }
   // A component times the inverse root, floored and clamped to the dot table's last address.

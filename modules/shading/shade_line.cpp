@@ -65,7 +65,9 @@ void DeferredShader::normalise(std::size_t count) {
   std::uint32_t zeros = 0;
   std::uint32_t shorts = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t squares = normaliser_.sum_of_squares(x[k], y[k], z[k]);
+    std::uint32_t squares = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      squares += normaliser_.square(scratch_.magnitude[i][k], scratch_.negative[i][k]);
     const std::uint32_t visible = (x[k] | y[k] | z[k]) != 0 ? 1 : 0;
     scratch_.squares[k] = squares;
     scratch_.visible[k] = visible;
