@@ -1,0 +1,87 @@
+// A result with something in every field, for tests of the reports.
+#pragma once
+
+#include <string>
+
+#include "src/run/result.h"
+
+namespace rastertlm::report {
+
+inline reference::ErrorFigures example_error(const std::string& reference, int largest) {
+  reference::ErrorFigures e;
+  e.reference = reference;
+  e.compared = 52'001;
+  e.covered_missing = 2;
+  e.covered_extra = 3;
+  e.wrong_object = 4;
+  e.max_level = largest;
+  e.max_level_same_object = largest - 1;
+  e.rmse_level = 0.123456789;
+  e.rmse_unrounded_level = 0.3333333333;
+  e.psnr_db = 66.30123456;
+  e.over_one_level_percent = 0.0123456789;
+  return e;
+}
+
+inline run::FrameFigures example_frame(std::uint64_t frame) {
+  run::FrameFigures f;
+  f.frame = frame;
+  f.animation_frame = static_cast<std::int64_t>(frame) - 1;
+  f.first_pixel_ps = 10'000'000'000 + frame;
+  f.last_pixel_ps = 19'999'980'000;
+  f.drawn = 431;
+  f.back_faces = 449;
+  f.degenerate = 16;
+  f.outside = 5;
+  f.pieces = 6;
+  f.pieces_dropped = 7;
+  f.snap_fraction_bits = 5;
+  f.covered_pixels = 52'003;
+  f.fragments = 61'234;
+  f.host_flops = 123'456;
+  f.words_sent = 19'712;
+  f.errors = {example_error("ideal", 9), example_error("snapped", 8), example_error("true", 17)};
+  return f;
+}
+
+inline run::Answer example_answer() {
+  run::Answer a;
+  a.frame_rate_hz = a.update_rate_hz = 50.00005;
+  a.display_rate_hz = 50.00005;
+  a.required_rate_hz = 50.0;
+  a.sustained = true;
+  a.headroom = 0.1934567;
+  a.bottleneck = {"computation unit 3", "floating-point operations", 0.838};
+  a.latency_frames = 2;
+  a.initial_load_frames = 7;
+  a.limits = {"The host needs 84 % of a frame."};
+  return a;
+}
+
+// Sustained at 512x512, 50 Hz, with two frames.
+inline run::Result example_result() {
+  run::Result r;
+  r.platform = "imogene";
+  r.config_digest = std::string(64, 'a');
+  r.scene_digest = std::string(64, 'b');
+  r.frame_count = 2;
+  r.columns = 512;
+  r.lines = 512;
+  r.obtained_refresh_hz = 50.00005;
+  r.answer = example_answer();
+  r.units = {{"shading", 1e9 / 60.0, 666'666, 524'288, 100'000, 42'000, 378}};
+  r.budgets = {{"line_start", 21.0, 119.0, "cycles", true, true, "004, section 4.2"},
+               {"dot_table.load_68000", 650.25, 600.0, "us", false, false, "004, table 5.3"}};
+  r.links = {{"boards to decision unit", 32, 33'333'333.3333, 18'446'744'073'709'551'615U, 133'333'333.333,
+              27'340'000.0, 30'000'000.0, 0.20505}};
+  r.memories = {{"specular table", 16, 4096, 8}};
+  r.logic = {{"decision unit", 1023, "comparators"}};
+  r.modelled = {1024, 896, 431, 8192,   2048,   43'008, 19'712,
+                896,  16,  1,   61'234, 52'003, 9'231,  {"second light: none in the scene"}};
+  r.frames = {example_frame(0), example_frame(1)};
+  r.warnings = {"Nothing moves."};
+  r.host = {1.25, 266'666.4, 123'456'789};
+  return r;
+}
+
+}  // namespace rastertlm::report

@@ -1,0 +1,137 @@
+#include "src/report/text_report.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "src/report/json_report.h"
+#include "tests/src/report/example_result.h"
+
+namespace rastertlm::report {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string line_with(const std::string& text, const std::string& part) {
+  for (const std::string& line : lines_of(text))
+    if (line.find(part) != std::string::npos) return line;
+  return "no line with " + part;
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(TextReport, FirstLineIsTheAnswer) {
+  EXPECT_EQ(lines_of(text_report({example_result(), false})).front(),
+            "512x512 at 50 Hz: sustained, 50.0 updates/s; limited by computation unit 3: floating-point operations, 84 "
+            "% of what a frame "
+            "allows; headroom 19 %.");
+}
+
+TEST(TextReport, SaysThatAMachineDoesNotSustainItsRate) {
+  run::Result result = example_result();
+  result.answer.sustained = false;
+  result.answer.update_rate_hz = result.answer.frame_rate_hz = 50.0 / 3.0;
+  result.answer.headroom = -0.583;
+  result.answer.bottleneck.utilisation = 2.4;
+  EXPECT_EQ(answer_sentence(result),
+            "512x512 at 50 Hz: NOT sustained, 16.7 updates/s on a display that scans out 50.0 times a second; limited "
+            "by computation unit "
+            "3: floating-point operations, 240 % of what a frame allows; short of the required rate by 58 %.");
+}
+
+TEST(TextReport, KnowsAMachineThatNothingLimits) {
+  run::Result result = example_result();
+  result.answer.bottleneck = {};
+  EXPECT_EQ(answer_sentence(result), "512x512 at 50 Hz: sustained, 50.0 updates/s; nothing limits it.");
+}
+
+TEST(TextReport, ShowsWhereTheCyclesGo) {
+  const std::string text = text_report({example_result(), false});
+  const std::string line = line_with(text, "  shading");
+  for (const char* part :
+       {"16.67 MHz", "666,666", "524,288  78.6 %", "100,000  15.0 %", "42,000", "6.3 %", "378", "0.1 %"})
+    EXPECT_TRUE(holds(line, part)) << part << " in " << line;
+  EXPECT_TRUE(holds(text, "Where the cycles go (2 displayed frames"));
+}
+
+TEST(TextReport, TellsBudgetsThatApplyFromThoseThatDoNot) {
+  const std::string text = text_report({example_result(), false});
+  const std::string applies = line_with(text, "line_start");
+  EXPECT_TRUE(holds(applies, "21        119  cycles   18 %  yes")) << applies;
+  const std::string compared = line_with(text, "dot_table.load_68000");
+  EXPECT_TRUE(holds(compared, "650.2")) << compared;
+  EXPECT_TRUE(holds(compared, "us")) << compared;
+  EXPECT_TRUE(holds(compared, "(NO)")) << compared;
+}
+
+TEST(TextReport, ShowsBandwidthMemoryAndLogic) {
+  const std::string text = text_report({example_result(), false});
+  const std::string link = line_with(text, "boards to decision unit");
+  for (const char* part : {"32 bits", "33.33 MHz", "133.3 MB/s", "30 MB/s", "27.34 MB/s", "21 %"})
+    EXPECT_TRUE(holds(link, part)) << part << " in " << link;
+  EXPECT_TRUE(holds(line_with(text, "specular table"), "512 Kibit")) << line_with(text, "specular table");
+  EXPECT_TRUE(holds(line_with(text, "  together"), "512 Kibit"));
+  EXPECT_TRUE(holds(line_with(text, "comparators"), "1,023"));
+}
+
+TEST(TextReport, GivesTheWorstFrameOfEachErrorFigure) {
+  run::Result result = example_result();
+  result.frames[1].errors[0].max_level = 12;
+  result.frames[1].errors[0].psnr_db = 60.0;
+  const std::string text = text_report({result, false});
+  EXPECT_TRUE(holds(text, "the worst of 2 frames"));
+  const std::string line = line_with(text, "  ideal  ");
+  for (const char* part : {"2 px", "3 px", "4 px", "12 levels", "8 levels", "0.123457 levels", "60 dB", "0.0123457 %"})
+    EXPECT_TRUE(holds(line, part)) << part << " in " << line;
+  EXPECT_TRUE(holds(text, "error_*.png: absolute difference from the ideal picture, times 16"));
+}
+
+TEST(TextReport, AnInfinitePsnrInOneFrameDoesNotHideAnother) {
+  run::Result result = example_result();
+  result.frames[0].errors[0].psnr_db.reset();
+  EXPECT_TRUE(holds(line_with(text_report({result, false}), "  ideal  "), "66.3012 dB"));
+  result.frames[1].errors[0].psnr_db.reset();
+  EXPECT_TRUE(holds(line_with(text_report({result, false}), "  ideal  "), "infinite"));
+}
+
+TEST(TextReport, SaysThatNothingWasMeasured) {
+  run::Result result = example_result();
+  for (run::FrameFigures& frame : result.frames) frame.errors.clear();
+  EXPECT_TRUE(holds(text_report({result, false}), "Not measured (--no-reference)."));
+}
+
+TEST(TextReport, SaysWhatWasModelledAndWarns) {
+  const std::string text = text_report({example_result(), false});
+  EXPECT_TRUE(holds(text, "Object processors: 1,024 in the machine, 896 hold an object, 431 simulated."));
+  EXPECT_TRUE(holds(text, "896 made, 16 of them of zero area, 1 without a processor."));
+  EXPECT_TRUE(holds(text, "Left out: second light: none in the scene"));
+  EXPECT_TRUE(holds(text, "Nothing moves."));
+  EXPECT_TRUE(holds(text, "The host needs 84 % of a frame."));
+}
+
+TEST(TextReport, TellsOfTheHostOnlyWhenAsked) {
+  EXPECT_FALSE(holds(text_report({example_result(), false}), "The simulation itself"));
+  EXPECT_TRUE(holds(text_report({example_result(), true}),
+                    "1.25 s, 266,666 simulated pixel clocks a second, 123.5 MB at most."));
+}
+
+TEST(TextReport, IsTheSameFromTheResultAsFromItsJson) {
+  const Contents contents{example_result(), true};
+  const Contents stored = read_json(json_text(contents), "r");
+  const std::string text = text_report(stored);
+  EXPECT_EQ(text, text_report(read_json(json_text(stored), "r")));
+  EXPECT_EQ(text, text_report(contents)) << "no figure of the text has more digits than report.json keeps";
+}
+
+TEST(TextReport, HasNoBlanksAtTheEndsOfItsLines) {
+  for (const std::string& line : lines_of(text_report({example_result(), true})))
+    EXPECT_FALSE(!line.empty() && line.back() == ' ') << line;
+}
+
+}  // namespace
+}  // namespace rastertlm::report
