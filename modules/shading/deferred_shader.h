@@ -118,7 +118,7 @@ class DeferredShader {
   };
   // Covered pixels of a line, gathered: structure of arrays for the vector units.
   struct Scratch {
-    std::vector<std::uint32_t> column, base, visible, squares;
+    std::vector<std::uint32_t> column, base, visible, squares, diffuse_index, specular_index;
     std::array<std::vector<std::uint32_t>, 3> word, magnitude, negative, sum;
     void resize(std::size_t columns);
   };

@@ -12,6 +12,8 @@ void DeferredShader::Scratch::resize(std::size_t columns) {
   base.resize(columns);
   visible.resize(columns);
   squares.resize(columns);
+  diffuse_index.resize(columns);
+  specular_index.resize(columns);
   for (std::size_t i = 0; i < 3; ++i) {
     word[i].resize(columns);
     magnitude[i].resize(columns);
@@ -74,9 +76,11 @@ void DeferredShader::normalise(std::size_t count) {
     zeros += 1 - visible;
     shorts += visible & (normaliser_.is_short(squares) ? 1U : 0U);
   }
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t root = normaliser_.inverse_root(scratch_.squares[k]);
-    for (auto& magnitude : scratch_.magnitude) magnitude[k] = normaliser_.product(magnitude[k], root);
+  std::uint32_t* roots = scratch_.squares.data();
+  for (std::size_t k = 0; k < count; ++k) roots[k] = normaliser_.inverse_root(roots[k]);
+  for (auto& component : scratch_.magnitude) {
+    std::uint32_t* magnitude = component.data();
+    for (std::size_t k = 0; k < count; ++k) magnitude[k] = normaliser_.product(magnitude[k], roots[k]);
   }
   counters_.pixels += count;
   counters_.zero_normals += zeros;
@@ -84,25 +88,35 @@ void DeferredShader::normalise(std::size_t count) {
 }
 
 void DeferredShader::add_light(const LightTables& light, const MaterialTables& tables, std::size_t count) {
-  const auto evaluate = [&](const DotTables& dot, std::size_t k) {
-    std::array<std::int32_t, 3> term{};
-    for (std::size_t i = 0; i < 3; ++i)
-      term[i] = DotProduct::signed_term(dot.products[i][scratch_.magnitude[i][k]],
-                                        (scratch_.negative[i][k] != 0) != dot.negative[i]);
-    return dot_product_.index(dot_product_.sum(term[0], term[1], term[2]));
+  // Bare pointers and a copy of the adder: nothing that the loop writes can then alias what it reads through.
+  const DotProduct adder = dot_product_;
+  const auto index_into = [&](const DotTables& dot, std::uint32_t* index) {
+    const std::uint16_t* products[3] = {dot.products[0].data(), dot.products[1].data(), dot.products[2].data()};
+    const std::uint32_t* n[3] = {scratch_.magnitude[0].data(), scratch_.magnitude[1].data(),
+                                 scratch_.magnitude[2].data()};
+    const std::uint32_t* sign[3] = {scratch_.negative[0].data(), scratch_.negative[1].data(),
+                                    scratch_.negative[2].data()};
+    const std::uint32_t flip[3] = {dot.negative[0], dot.negative[1], dot.negative[2]};
+    for (std::size_t k = 0; k < count; ++k) {
+      std::int32_t term[3];
+      for (std::size_t i = 0; i < 3; ++i)
+        term[i] = DotProduct::signed_term(products[i][n[i][k]], (sign[i][k] ^ flip[i]) != 0);
+      index[k] = adder.index(adder.sum(term[0], term[1], term[2]));
+    }
   };
-  std::array<const std::uint8_t*, 3> diffuse_levels{};
-  std::array<const std::uint8_t*, 3> specular_levels{};
+  index_into(light.diffuse, scratch_.diffuse_index.data());
+  index_into(light.specular, scratch_.specular_index.data());
+  const std::uint32_t* base = scratch_.base.data();
+  const std::uint32_t* visible = scratch_.visible.data();
+  const std::uint32_t* diffuse_index = scratch_.diffuse_index.data();
+  const std::uint32_t* specular_index = scratch_.specular_index.data();
   for (std::size_t c = 0; c < 3; ++c) {
-    diffuse_levels[c] = tables.diffuse[c].data();
-    specular_levels[c] = tables.specular[tables.specular.size() == 1 ? 0 : c].data();
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t diffuse = scratch_.base[k] + evaluate(light.diffuse, k);
-    const std::size_t specular = scratch_.base[k] + evaluate(light.specular, k);
-    for (std::size_t c = 0; c < 3; ++c)
-      scratch_.sum[c][k] +=
-          scratch_.visible[k] * (std::uint32_t{diffuse_levels[c][diffuse]} + specular_levels[c][specular]);
+    const std::uint8_t* diffuse = tables.diffuse[c].data();
+    const std::uint8_t* specular = tables.specular[tables.specular.size() == 1 ? 0 : c].data();
+    std::uint32_t* sum = scratch_.sum[c].data();
+    for (std::size_t k = 0; k < count; ++k)
+      sum[k] +=
+          visible[k] * (std::uint32_t{diffuse[base[k] + diffuse_index[k]]} + specular[base[k] + specular_index[k]]);
   }
 }
 
