@@ -5,7 +5,7 @@
 // triangle of the frame uses `SnapGrids::guarded`. A triangle needs the guard band if one of its corners does, whether
 // or not the triangle faces the viewer and also where it lies wholly outside one plane of the view volume. A corner
 // needs it if it fails the near or the far plane or if its position, snapped to the fine grid, is not within the
-// samples of the screen.
+// samples of the screen. Those that need the band are clipped to it; the others are drawn as they are, in any frame.
 #pragma once
 
 #include <array>

@@ -56,7 +56,7 @@ class Assembler {
         out_(out) {}
 
   void add(const ClipTriangle<double>& triangle, std::uint32_t number, std::uint16_t material, bool two_sided) {
-    const Polygon<double> polygon = geometry::clip_to_frame(triangle, grid_);
+    const Polygon<double> polygon = drawn_polygon(triangle);
     for (std::size_t k = 1; k + 1 < polygon.size; ++k) {
       Piece piece;
       piece.object = number;
@@ -67,6 +67,14 @@ class Assembler {
   }
 
  private:
+  Polygon<double> drawn_polygon(const ClipTriangle<double>& triangle) const {
+    if (geometry::needs_guard_band(triangle, options_.grids.on_screen, viewport_))
+      return geometry::clip_to_frame(triangle, grid_);
+    Polygon<double> polygon;
+    for (const ClipVertex<double>& vertex : triangle) polygon.add(vertex);
+    return polygon;
+  }
+
   // False where the piece is not drawn.
   bool place(Piece& piece, const ClipTriangle<double>& corners, bool two_sided) const {
     for (std::size_t i = 0; i < 3; ++i) {
