@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -7,8 +9,6 @@
 #include "src/scene/scene.h"
 #include "src/scene/transform.h"
 #include "src/scene/view_check.h"
-
-#include <fmt/format.h>
 
 namespace rastertlm::scene {
 namespace {
