@@ -1,0 +1,167 @@
+// Bad input: exit code 2, a sentence that says what is wrong and where, and nothing written.
+#include <gmock/gmock.h>
+
+#include "tests/support/run_program.h"
+
+namespace rastertlm::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class BadInputTest : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("machine.toml", kSmallMachine);
+    write("scene.toml", one_triangle());
+  }
+  // Renders both and expects that it is refused with all of the texts.
+  void refused(const std::vector<std::string>& texts, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"render", machine_, scene_, "--out", "o"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const std::set<std::string> before = names();
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err << outcome.out;
+    EXPECT_THAT(outcome.out, IsEmpty());
+    for (const std::string& text : texts) EXPECT_THAT(outcome.err, HasSubstr(text));
+    EXPECT_EQ(names(), before) << "nothing is written";
+  }
+  void scene_refused(const std::string& objects, const std::vector<std::string>& texts) {
+    write("scene.toml", kSceneHead + objects);
+    refused(texts);
+  }
+  void mesh_refused(const std::string& name, const std::string& mesh, const std::vector<std::string>& texts) {
+    write(name, mesh);
+    scene_refused("[[object]]\ntype = \"mesh\"\nmaterial = \"clay\"\nfile = \"" + name + "\"\n", texts);
+  }
+
+  std::string machine_ = "machine.toml";
+  std::string scene_ = "scene.toml";
+};
+
+TEST_F(BadInputTest, MissingFiles) {
+  machine_ = "none.toml";
+  scene_ = "neither.toml";
+  refused({"none.toml: ", "neither.toml: ", "cannot be opened"});  // both at once
+}
+
+TEST_F(BadInputTest, EmptyFile) {
+  write("scene.toml", "# nothing\n");
+  refused({"scene.toml: is empty"});
+}
+
+TEST_F(BadInputTest, Directory) {
+  scene_ = ".";
+  refused({"is a directory"});
+}
+
+TEST_F(BadInputTest, NotToml) {
+  write("machine.toml", "schema = 1\nvideo = [\n");
+  refused({"machine.toml:"});
+}
+
+TEST_F(BadInputTest, WrongType) {
+  write("machine.toml", "schema = 1\nplatform = \"imogene\"\n[video]\ncolumns = \"wide\"\n");
+  refused({"machine.toml:4: video.columns: ", "wide"});
+}
+
+TEST_F(BadInputTest, UnknownKeyNamesTheNearest) {
+  write("machine.toml", "schema = 1\nplatform = \"imogene\"\n[video]\ncolums = 512\n");
+  refused({"machine.toml:4: ", "unknown key 'video.colums'", "columns"});
+}
+
+TEST_F(BadInputTest, ValueOutOfRange) {
+  write("machine.toml", "schema = 1\nplatform = \"imogene\"\n[video]\nrefresh_hz = -50.0\n");
+  refused({"machine.toml:4: video.refresh_hz: ", "-50"});
+}
+
+TEST_F(BadInputTest, ColumnsAndLines) {
+  for (const char* key : {"video.columns", "video.lines"})
+    for (const char* value : {"0", "-1", "16385", "99999999999999999999"})
+      refused({key}, {"--set", std::string(key) + '=' + value});
+}
+
+TEST_F(BadInputTest, EverythingThatIsWrongIsSaidAtOnce) {
+  write("machine.toml", "schema = 1\nplatform = \"imogene\"\n[video]\ncolumns = 0\nlines = 0\n");
+  write("scene.toml", one_triangle() + "[camera]\nnear = -1.0\nfra = 3.0\n");
+  refused({"machine.toml:4: video.columns", "machine.toml:5: video.lines", "camera.near", "camera.fra"});
+}
+
+TEST_F(BadInputTest, AnotherPlatformOrSchema) {
+  write("machine.toml", "schema = 1\nplatform = \"imogen\"\n");
+  refused({"machine.toml:2: platform: ", "imogene"});
+  write("machine.toml", "schema = 9\nplatform = \"imogene\"\n");
+  refused({"machine.toml:1: schema: ", "9"});
+}
+
+TEST_F(BadInputTest, VertexThatIsNotFinite) {
+  for (const char* number : {"nan", "inf", "-inf"})
+    scene_refused("[[object]]\ntype = \"triangles\"\nmaterial = \"clay\"\npositions = [[0.0, 0.0, 0.0], [1.0, 0.0, " +
+                      std::string(number) + "], [0.0, 0.0, 1.0]]\n",
+                  {"scene.toml:9: object[0].positions", "finite"});
+  mesh_refused("mesh.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n", {"mesh.obj", "not finite"});
+}
+
+TEST_F(BadInputTest, FaceThatNamesNoVertex) {
+  mesh_refused("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", {"mesh.obj", "range"});
+  scene_refused(
+      "[[object]]\ntype = \"triangles\"\nmaterial = \"clay\"\npositions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, "
+      "0.0, 1.0]]\n"
+      "indices = [[0, 1, 3]]\n",
+      {"scene.toml", "object[0].indices"});
+}
+
+TEST_F(BadInputTest, MeshFileThatIsMissingEmptyOrNoMesh) {
+  scene_refused("[[object]]\ntype = \"mesh\"\nmaterial = \"clay\"\nfile = \"none.obj\"\n",
+                {"object[0].file", "none.obj"});
+  mesh_refused("empty.obj", "", {"empty.obj"});
+  mesh_refused("text.ply", "not a mesh\n", {"text.ply"});
+}
+
+TEST_F(BadInputTest, TrianglesOfZeroAreaOnly) {
+  scene_refused(
+      "[[object]]\ntype = \"triangles\"\nmaterial = \"clay\"\npositions = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, "
+      "0.0, 0.0]]\n",
+      {"object[0]", "none of its 1 triangles has an area"});
+  mesh_refused("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", {"none of its 1 triangles has an area"});
+}
+
+TEST_F(BadInputTest, NoObject) { scene_refused("", {"scene.toml", "object: the scene has no object"}); }
+
+TEST_F(BadInputTest, MoreObjectsThanProcessors) {
+  // A sphere of 12 x 8 has 2 * 12 * 7 triangles; the machine has 32 processors.
+  scene_refused("[[object]]\ntype = \"uv_sphere\"\nmaterial = \"clay\"\nslices = 12\nstacks = 8\n", {"168", "32"});
+}
+
+TEST_F(BadInputTest, MoreObjectsThanProcessorsMayBeDropped) {
+  write("scene.toml",
+        std::string(kSceneHead) + "[[object]]\ntype = \"uv_sphere\"\nmaterial = \"clay\"\nslices = 12\nstacks = 8\n");
+  const Outcome outcome = run({"render", "machine.toml", "scene.toml", "--out", "o", "--set", "host.overflow=drop"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(file_text(in_work("o/report.txt")),
+              HasSubstr("168 made, 0 of them of zero area, 136 without a processor."));
+}
+
+// An animation may begin with nothing in view: it is shown, with a warning.
+TEST_F(BadInputTest, SceneBehindTheCameraIsAWarning) {
+  write("scene.toml", one_triangle() + "translate = [0.0, -100.0, 0.0]\n");
+  const Outcome outcome = run({"render", "machine.toml", "scene.toml", "--out", "o"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("Warning: frame 0 shows nothing but the background: no triangle of the scene is in view"));
+  EXPECT_THAT(file_text(in_work("o/report.txt")), HasSubstr("nothing but the background"));
+}
+
+TEST_F(BadInputTest, NoMaterialOfThatName) {
+  scene_refused("[[object]]\ntype = \"teapot\"\nmaterial = \"glass\"\n", {"object[0].material", "glass"});
+}
+
+TEST_F(BadInputTest, OverridesOfUnknownKeysAndWrongTypes) {
+  refused({"video.column"}, {"--set", "video.column=3"});
+  refused({"video.columns"}, {"--set", "video.columns=wide"});
+  refused({"light[3]"}, {"--set", "light[3].towards=[1,2,3]"});
+}
+
+}  // namespace
+}  // namespace rastertlm::test
