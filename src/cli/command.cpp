@@ -55,6 +55,12 @@ std::string unknown_command(int argc, char** argv, const Commands& commands) {
   return unknown_word("sub-command", argv[1], names);
 }
 
+std::string no_command(const Commands& commands) {
+  std::string text = "a sub-command is needed:";
+  for (const auto& command : commands) text += fmt::format("\n  {:<10}{}", command->name(), command->summary());
+  return text + "\nsee rastertlm --help";
+}
+
 ExitCode parse_and_run(int argc, char** argv) {
   const Commands commands = all_commands();
   CLI::App app(
@@ -63,7 +69,6 @@ ExitCode parse_and_run(int argc, char** argv) {
       "is its picture from the exact one?");
   app.footer(kFooter);
   app.set_version_flag("--version", kVersion);
-  app.require_subcommand(1);
   Command* chosen = nullptr;
   for (const auto& command : commands) {
     CLI::App* sub = app.add_subcommand(command->name(), command->summary());
@@ -83,6 +88,7 @@ ExitCode parse_and_run(int argc, char** argv) {
     app.exit(error);  // help and version
     return ExitCode::kDone;
   }
+  if (chosen == nullptr) return fail(ExitCode::kBadInput, no_command(commands));
   return chosen->run();
 }
 

@@ -61,7 +61,9 @@ void RenderCommand::declare(CLI::App& app) {
       ->allow_extra_args(false);
   validated(app.add_option("--frames", frames_, "displayed frames")->capture_default_str()->type_name("N"),
             whole_from_one);
-  app.add_option("--out", out_, "directory of the results (default: out/<scene>_<machine>)")->type_name("DIR");
+  validated(
+      app.add_option("--out", out_, "directory of the results (default: out/<scene>_<machine>)")->type_name("DIR"),
+      not_empty);
   validated(app.add_option("--require-rate", require_rate_, "exit code 1 where fewer pictures a second are new")
                 ->type_name("HZ"),
             finite_and_positive);

@@ -57,4 +57,6 @@ std::string whole_from_one(const std::string& text) {
   return fmt::format("'{}' is not a whole number from 1 to {}", text, kMostFrames);
 }
 
+std::string not_empty(const std::string& text) { return text.empty() ? "it is empty" : ""; }
+
 }  // namespace rastertlm::cli

@@ -16,5 +16,6 @@ std::string left_over(const CLI::App& app, const std::vector<std::string>& words
 // Validators: an empty text, or what is wrong.
 std::string finite_and_positive(const std::string& text);
 std::string whole_from_one(const std::string& text);
+std::string not_empty(const std::string& text);
 
 }  // namespace rastertlm::cli
