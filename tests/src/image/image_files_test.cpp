@@ -213,9 +213,11 @@ TEST_F(ImageFiles, WhatIsNoPictureIsRefusedWithItsPath) {
   EXPECT_THAT(input_error(path("none.png")), HasSubstr("no such file"));
   std::ofstream(path("text.png")) << "this is not a picture";
   EXPECT_THAT(input_error(path("text.png")), HasSubstr("cannot be read as a picture"));
-  write_png(path("cut.png"), 64, 64, noise(64, 64));
-  fs::resize_file(path("cut.png"), 200);
-  EXPECT_THAT(input_error(path("cut.png")), HasSubstr(path("cut.png")));
+  // A cut EXR: on a cut PNG the library itself loses a string, which the leak sanitizer would report.
+  const Planes planes;
+  write_exr(path("cut.exr"), planes.columns, planes.lines, planes.channels());
+  fs::resize_file(path("cut.exr"), fs::file_size(path("cut.exr")) / 2);
+  EXPECT_THAT(input_error(path("cut.exr")), HasSubstr(path("cut.exr")));
 }
 
 }  // namespace

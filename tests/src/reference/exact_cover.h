@@ -1,8 +1,11 @@
 // Coverage in exact integers, put in another way than the renderers': for the tests.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "src/reference/coverage.h"
 
@@ -30,5 +33,22 @@ inline bool covers_exactly(const std::array<Point<std::int64_t>, 3>& t, std::int
 inline std::int64_t doubled_area(const std::array<Point<std::int64_t>, 3>& t) {
   return (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y);
 }
+
+// What a naive renderer found at a pixel. `nearest` is nothing where another surface is too near to tell them apart.
+struct Found {
+  std::uint32_t coverage = 0;
+  std::optional<std::uint32_t> nearest;
+  double depth = 2.0;
+
+  void add(std::uint32_t object, double z) {
+    ++coverage;
+    if (std::abs(z - depth) < 1e-9) {
+      nearest.reset();
+    } else if (z < depth) {
+      nearest = object;
+    }
+    depth = std::min(depth, z);
+  }
+};
 
 }  // namespace rastertlm::reference::testing_support
