@@ -3,13 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <pthread.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -68,7 +68,7 @@ void remove_partial(const std::string& partial, const std::vector<std::string>& 
     const std::string removed = partial + kRemoved;
     remove_quietly(::rename(partial.c_str(), removed.c_str()) == 0 ? removed : partial);
   }
-  for (auto parent = parents.rbegin(); parent != parents.rend(); ++parent) ::rmdir(parent->c_str());
+  for (const std::string& parent : parents) ::rmdir(parent.c_str());
 }
 
 std::string parent_of(const std::string& path) {
@@ -125,7 +125,7 @@ std::string without_slash(std::string path) {
 // DIR as it will be renamed: a link followed, and a name at the end, which "." and ".." have not.
 std::string normal_form(const std::string& directory) {
   if (directory.empty()) throw InputError(Diagnostic{"--out", 0, "", "names no directory"});
-  const std::string normal = without_slash(fs::path(directory).lexically_normal().string());
+  std::string normal = without_slash(fs::path(directory).lexically_normal().string());
   const std::string name = fs::path(normal).filename().string();
   std::error_code error;
   if (name != "." && name != ".." && !fs::is_symlink(normal, error)) return normal;
@@ -141,7 +141,7 @@ std::vector<std::string> make_parents(const std::string& target) {
   std::vector<std::string> made;
   for (const std::string& parent : missing) {
     if (::mkdir(parent.c_str(), kDirectoryMode) == 0) {
-      made.push_back(parent);
+      made.insert(made.begin(), parent);
     } else if (errno != EEXIST) {
       const int error = errno;
       remove_partial("", made);
@@ -157,16 +157,18 @@ void keep_subdirectories(const std::string& old, const std::string& target) {
   std::vector<std::string> names;
   for (fs::directory_iterator entry(old, error), end; !error && entry != end; entry.increment(error))
     if (entry->is_directory(error) && !entry->is_symlink(error)) names.push_back(entry->path().filename().string());
-  for (const std::string& name : names)
-    if (::rename((old + '/' + name).c_str(), (target + '/' + name).c_str()) != 0)
-      throw OutputError(output_message(target + '/' + name, errno));
+  for (const std::string& name : names) {
+    const std::string from = fmt::format("{}/{}", old, name);
+    const std::string to = fmt::format("{}/{}", target, name);
+    if (::rename(from.c_str(), to.c_str()) != 0) throw OutputError(output_message(to, errno));
+  }
 }
 
 // Partial and target change places; gives the name that what DIR was has now.
 std::string exchange(const std::string& partial, const std::string& target) {
   if (::renameat2(AT_FDCWD, partial.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) == 0) return partial;
   // Not every file system can do it at once.
-  const std::string old = partial + kOld;
+  std::string old = partial + kOld;
   if (::rename(target.c_str(), old.c_str()) != 0) throw OutputError(output_message(target, errno));
   if (::rename(partial.c_str(), target.c_str()) != 0) {
     const int error = errno;

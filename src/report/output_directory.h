@@ -33,7 +33,7 @@ class OutputDirectory {
  private:
   std::string target_;  // DIR, without a slash at the end
   std::string partial_;
-  std::vector<std::string> parents_;  // made by us, outermost first
+  std::vector<std::string> parents_;  // made by us, innermost first
   bool committed_ = false;
 };
 

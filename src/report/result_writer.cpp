@@ -36,7 +36,7 @@ void ResultWriter::rethrow() const {
 Contents ResultWriter::write_reports(const Contents& contents, const std::string& machine_toml,
                                      const std::string& scene_toml) {
   const std::string json = json_text(contents);
-  const Contents stored = read_json(json, kReportJson);
+  Contents stored = read_json(json, kReportJson);
   write_text_file(directory_.path(kResolvedMachine), machine_toml);
   write_text_file(directory_.path(kResolvedScene), scene_toml);
   write_text_file(directory_.path(kFramesCsv), frames_csv(stored.result));

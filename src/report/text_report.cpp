@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "src/report/error_image.h"
 #include "src/report/error_section.h"
+#include "src/report/merged_rows.h"
 #include "src/report/number_text.h"
 #include "src/report/text_table.h"
 
@@ -53,10 +57,12 @@ std::string units_section(const run::Result& result) {
                    {"idle", Align::right},
                    {"", Align::right}},
                   kIndent);
+  std::vector<std::vector<std::string>> rows;
   for (const run::UnitFigures& u : result.units)
-    table.row({u.name, frequency(u.clock_hz), grouped(u.cycles), grouped(u.busy), percent_of(u.busy, u.cycles),
-               grouped(u.starved), percent_of(u.starved, u.cycles), grouped(u.blocked), percent_of(u.blocked, u.cycles),
-               grouped(u.idle), percent_of(u.idle, u.cycles)});
+    rows.push_back({u.name, frequency(u.clock_hz), grouped(u.cycles), grouped(u.busy), percent_of(u.busy, u.cycles),
+                    grouped(u.starved), percent_of(u.starved, u.cycles), grouped(u.blocked),
+                    percent_of(u.blocked, u.cycles), grouped(u.idle), percent_of(u.idle, u.cycles)});
+  for (auto& row : merged_rows(rows)) table.row(std::move(row));
   return heading(fmt::format("Where the cycles go ({}, cycles of each unit's own clock)",
                              counted(result.frame_count, "displayed frame", "displayed frames"))) +
          table.text();
@@ -95,10 +101,12 @@ std::string links_section(const run::Result& result) {
                    {"over the run", Align::right},
                    {"used", Align::right}},
                   kIndent);
+  std::vector<std::vector<std::string>> rows;
   for (const run::LinkFigures& l : result.links)
-    table.row({l.name, counted(l.bits, "bit", "bits"), frequency(l.clock_hz), grouped(l.bytes) + " B",
-               bytes_per_second(l.peak_bytes_per_s), bytes_per_second(l.active_bytes_per_s),
-               bytes_per_second(l.achieved_bytes_per_s), percent(l.utilisation)});
+    rows.push_back({l.name, counted(l.bits, "bit", "bits"), frequency(l.clock_hz), grouped(l.bytes) + " B",
+                    bytes_per_second(l.peak_bytes_per_s), bytes_per_second(l.active_bytes_per_s),
+                    bytes_per_second(l.achieved_bytes_per_s), percent(l.utilisation)});
+  for (auto& row : merged_rows(rows)) table.row(std::move(row));
   return heading("Bandwidth") + table.text();
 }
 

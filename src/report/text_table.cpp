@@ -30,6 +30,7 @@ std::string TextTable::text() const {
   widen(header);
   for (const auto& cells : rows_) widen(cells);
   std::vector<std::string> rule;
+  rule.reserve(widths.size());
   for (const std::size_t width : widths) rule.emplace_back(width, '-');
 
   std::string text;
