@@ -29,7 +29,8 @@ inline run::FrameFigures example_frame(std::uint64_t frame) {
   f.animation_frame = static_cast<std::int64_t>(frame) - 1;
   f.first_pixel_ps = 10'000'000'000 + frame;
   f.last_pixel_ps = 19'999'980'000;
-  f.drawn = 431;
+  f.drawn = 885;
+  f.facing = 431;
   f.back_faces = 449;
   f.degenerate = 16;
   f.outside = 5;

@@ -1,5 +1,6 @@
 #include "src/report/json_report.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -26,7 +27,8 @@ std::vector<std::string> keys_of(const Json& object) {
 // Every path that leads to a value, elements of lists as "[]".
 void add_paths(const Json& json, const std::string& path, std::set<std::string>& paths) {
   if (json.is_object()) {
-    for (const auto& [key, value] : json.items()) add_paths(value, path.empty() ? key : path + '.' + key, paths);
+    for (const auto& [key, value] : json.items())
+      add_paths(value, path.empty() ? key : fmt::format("{}.{}", path, key), paths);
   } else if (json.is_array()) {
     for (const Json& element : json) add_paths(element, path + "[]", paths);
   } else {
