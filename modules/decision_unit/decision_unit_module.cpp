@@ -7,9 +7,16 @@
 
 namespace rastertlm::decision_unit {
 
-DecisionUnitModule::DecisionUnitModule(const sc_core::sc_module_name& name, DecisionUnit& unit, std::size_t boards, const Clock& clock, Cycles latency,
-                                       stream::Link& link)
-    : sc_module(name), in("in", boards), out("out"), unit_(unit), latency_(stream::to_time(clock, latency)), link_(link), lines_(boards), pointers_(boards) {
+DecisionUnitModule::DecisionUnitModule(const sc_core::sc_module_name& name, DecisionUnit& unit, std::size_t boards,
+                                       const Clock& clock, Cycles latency, stream::Link& link)
+    : sc_module(name),
+      in("in", boards),
+      out("out"),
+      unit_(unit),
+      latency_(stream::to_time(clock, latency)),
+      link_(link),
+      lines_(boards),
+      pointers_(boards) {
   for (std::size_t board = 0; board < boards; ++board)
     in[board].register_b_transport(this, &DecisionUnitModule::receive, static_cast<int>(board));
 }
@@ -18,8 +25,9 @@ DecisionUnitModule::DecisionUnitModule(const sc_core::sc_module_name& name, Deci
 void DecisionUnitModule::receive(int board, stream::FragmentPayload& payload, sc_core::sc_time& delay) {
   const auto index = static_cast<std::size_t>(board);
   if (lines_[index] || (gathered_ > 0 && payload.line != line_))
-    throw ModelError(name(), lines_sent_, "board " + std::to_string(board) + " sent line " + std::to_string(payload.line) + " while line " +
-                                              std::to_string(line_) + " was being gathered");
+    throw ModelError(name(), lines_sent_,
+                     "board " + std::to_string(board) + " sent line " + std::to_string(payload.line) + " while line " +
+                         std::to_string(line_) + " was being gathered");
   line_ = payload.line;
   lines_[index] = std::move(payload.fragments);
   pointers_[index] = lines_[index].get();

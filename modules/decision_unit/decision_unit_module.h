@@ -1,4 +1,5 @@
-// The decision unit: takes a line from every board and sends the nearest object at every pixel on to the shading processor.
+// The decision unit: takes a line from every board and sends the nearest object at every pixel on to the shading
+// processor.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -15,11 +16,14 @@ namespace rastertlm::decision_unit {
 
 class DecisionUnitModule : public sc_core::sc_module {
  public:
-  sc_core::sc_vector<tlm_utils::simple_target_socket_tagged<DecisionUnitModule, stream::kNoBusWidth, stream::FragmentProtocol>> in;  // one a board
+  sc_core::sc_vector<
+      tlm_utils::simple_target_socket_tagged<DecisionUnitModule, stream::kNoBusWidth, stream::FragmentProtocol>>
+      in;  // one a board
   tlm_utils::simple_initiator_socket<DecisionUnitModule, stream::kNoBusWidth, stream::FragmentProtocol> out;
 
   // `latency`: from the word of a pixel leaving the boards to its decision, in cycles of `clock`.
-  DecisionUnitModule(const sc_core::sc_module_name& name, DecisionUnit& unit, std::size_t boards, const Clock& clock, Cycles latency, stream::Link& link);
+  DecisionUnitModule(const sc_core::sc_module_name& name, DecisionUnit& unit, std::size_t boards, const Clock& clock,
+                     Cycles latency, stream::Link& link);
 
   std::uint64_t lines_sent() const { return lines_sent_; }
 
@@ -29,7 +33,7 @@ class DecisionUnitModule : public sc_core::sc_module {
   DecisionUnit& unit_;
   sc_core::sc_time latency_;
   stream::Link& link_;
-  std::vector<stream::LinePool::Handle> lines_;    // of the line being gathered, by board
+  std::vector<stream::LinePool::Handle> lines_;  // of the line being gathered, by board
   std::vector<frame::FragmentLine*> pointers_;
   std::size_t gathered_ = 0;
   std::size_t line_ = 0;

@@ -16,10 +16,11 @@ using stream::wait_until;
 
 namespace {
 
-// Light and highlight vectors as the shading processor knows them: constant over the frame, the viewer infinitely far along +z.
-std::vector<shading::LightArguments> light_arguments(const scene::Pose& pose) {
+// Light and highlight vectors as the shading processor knows them: constant over the frame, the viewer infinitely far
+// along +z.
+std::vector<shading::LightArguments> light_arguments(const geometry::Pose& pose) {
   std::vector<shading::LightArguments> result;
-  for (const scene::Light& light : pose.lights) {
+  for (const geometry::Light& light : pose.lights) {
     const geometry::Vector3<double> halfway = geometry::normalised<double>(light.vector + glm::dvec3(0, 0, 1));
     result.push_back({{light.vector.x, light.vector.y, light.vector.z},
                       {halfway.x, halfway.y, halfway.z},
@@ -30,10 +31,20 @@ std::vector<shading::LightArguments> light_arguments(const scene::Pose& pose) {
 
 }  // namespace
 
-AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation, const HostCost& cost, std::size_t children,
-                                         std::size_t units, Overflow overflow, Timeline timeline, std::vector<stream::Link*> links)
-    : sc_module(name), down("down", children), up("up", children), loader("loader"), animation_(animation), cost_(cost), units_(units),
-      overflow_(overflow), timeline_(std::move(timeline)), links_(std::move(links)), meter_(cost.clock()) {
+AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation,
+                                         const HostCost& cost, std::size_t children, std::size_t units,
+                                         Overflow overflow, Timeline timeline, std::vector<stream::Link*> links)
+    : sc_module(name),
+      down("down", children),
+      up("up", children),
+      loader("loader"),
+      animation_(animation),
+      cost_(cost),
+      units_(units),
+      overflow_(overflow),
+      timeline_(std::move(timeline)),
+      links_(std::move(links)),
+      meter_(cost.clock()) {
   for (auto& socket : up) socket.register_b_transport(this, &AnimationUnitModule::receive);
   SC_HAS_PROCESS(AnimationUnitModule);
   SC_THREAD(run_guarded);
@@ -88,7 +99,8 @@ void AnimationUnitModule::settle_plan() {
   if (!homeless_.empty()) {
     if (overflow_ == Overflow::error)
       throw InputError({"", 0, "host.processors_per_unit",
-                        fmt::format("animation frame {}: clipping makes {} more pieces than the machine has free object processors; more processors, or "
+                        fmt::format("animation frame {}: clipping makes {} more pieces than the machine has free "
+                                    "object processors; more processors, or "
                                     "host.overflow = \"drop\", would draw it",
                                     work_->animation_frame, homeless_.size())});
     pieces_dropped_ += homeless_.size();

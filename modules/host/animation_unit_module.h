@@ -1,5 +1,5 @@
-// The animation unit: at every retrace that showed its last frame it announces the next one, settles the frame's grid from what the
-// computation units report, and tells the table loader which way the lights now stand.
+// The animation unit: at every retrace that showed its last frame it announces the next one, settles the frame's grid
+// from what the computation units report, and tells the table loader which way the lights now stand.
 #pragma once
 
 #include <functional>
@@ -16,15 +16,17 @@ class AnimationUnitModule : public sc_core::sc_module {
  public:
   sc_core::sc_vector<MessageInitiator<AnimationUnitModule>> down;  // to the units that it feeds
   sc_core::sc_vector<MessageTarget<AnimationUnitModule>> up;       // their surveys
-  tlm_utils::simple_initiator_socket<AnimationUnitModule, stream::kNoBusWidth, shading::LightProtocol> loader;  // the lights, to the table loader
+  tlm_utils::simple_initiator_socket<AnimationUnitModule, stream::kNoBusWidth, shading::LightProtocol>
+      loader;  // the lights, to the table loader
 
   struct Timeline {
-    const sc_core::sc_event* swapped;               // at a retrace that showed the last frame
+    const sc_core::sc_event* swapped;                // at a retrace that showed the last frame
     std::function<std::uint64_t()> displayed_frame;  // whose retrace that was
   };
 
-  AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation, const HostCost& cost, std::size_t children, std::size_t units,
-                      Overflow overflow, Timeline timeline, std::vector<stream::Link*> links);
+  AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation, const HostCost& cost,
+                      std::size_t children, std::size_t units, Overflow overflow, Timeline timeline,
+                      std::vector<stream::Link*> links);
 
   // The frame that the machine shows after the next swap.
   const FrameWork& work() const { return *work_; }

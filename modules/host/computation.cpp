@@ -48,23 +48,30 @@ TriangleCounts& TriangleCounts::operator+=(const TriangleCounts& other) {
   return *this;
 }
 
-Computation::Computation(const scene::Scene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners)
+Computation::Computation(const ResidentScene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners)
     : scene_(scene), format_(format), guarded_frame_(geometry::frame_grid(format.grids, true, format.viewport)) {
   std::vector<std::size_t> first_object;  // number of the first triangle of each mesh
   std::size_t count = 0;
-  for (const scene::Object& object : scene.objects) {
+  for (const ResidentObject& object : scene.objects) {
     first_object.push_back(count);
-    count += object.mesh.triangles.size();
+    count += object.mesh->triangles.size();
   }
   triangles_.reserve(owners.size());
   std::vector<bool> owned(format.slots, false);
   for (const SlotOwner& owner : owners) {
-    const auto mesh = static_cast<std::size_t>(std::upper_bound(first_object.begin(), first_object.end(), owner.object) - first_object.begin()) - 1;
-    const scene::Object& object = scene.objects[mesh];
+    const auto mesh =
+        static_cast<std::size_t>(std::upper_bound(first_object.begin(), first_object.end(), owner.object) -
+                                 first_object.begin()) -
+        1;
+    const ResidentObject& object = scene.objects[mesh];
     const std::size_t index = owner.object - first_object[mesh];
-    const auto& corners = object.mesh.triangles[index];
-    triangles_.push_back({owner.object, static_cast<std::uint32_t>(mesh), {corners[0], corners[1], corners[2]}, owner.slot,
-                          object.mesh.material[index], object.two_sided});
+    const auto& corners = object.mesh->triangles[index];
+    triangles_.push_back({owner.object,
+                          static_cast<std::uint32_t>(mesh),
+                          {corners[0], corners[1], corners[2]},
+                          owner.slot,
+                          object.mesh->material[index],
+                          object.two_sided});
     owned[owner.slot] = true;
   }
   for (std::uint32_t slot = 0; slot < format.slots; ++slot)
@@ -93,13 +100,14 @@ Survey Computation::survey(const FrameWork& work) {
 }
 
 void Computation::transform(Triangle& triangle) {
-  const scene::Mesh& mesh = scene_.objects[triangle.mesh].mesh;
+  const geometry::Mesh& mesh = *scene_.objects[triangle.mesh].mesh;
   const glm::dmat3& normal_to_eye = work_->pose.normal_to_eye[triangle.mesh];
   geometry::ClipTriangle<Number> corners;
   triangle.needs_guard = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t corner = triangle.corner[i];
-    corners[i] = set_up::transform_vertex<Number>(mesh.positions[corner], mesh.normals[corner], object_to_clip_[triangle.mesh], normal_to_eye);
+    corners[i] = set_up::transform_vertex<Number>(mesh.positions[corner], mesh.normals[corner],
+                                                  object_to_clip_[triangle.mesh], normal_to_eye);
     if (triangle.needs_guard) continue;
     triangle.needs_guard = !geometry::within_depth(corners[i]);
     if (triangle.needs_guard) continue;
@@ -110,21 +118,25 @@ void Computation::transform(Triangle& triangle) {
   if (triangle.needs_guard) cut(triangle, corners);
 }
 
-// A triangle that needs the guard band settles the frame's grid, so its pieces can be fitted at once: what of them is drawn decides how many
-// slots it takes.
+// A triangle that needs the guard band settles the frame's grid, so its pieces can be fitted at once: what of them is
+// drawn decides how many slots it takes.
 void Computation::cut(Triangle& triangle, const geometry::ClipTriangle<Number>& corners) {
   const auto pieces = set_up::pieces(corners, guarded_frame_, format_.viewport);
   auto& drawn = cut_[static_cast<std::uint32_t>(&triangle - triangles_.data())];
   triangle.fate = Fate::outside;
   for (const auto& piece : pieces.list()) {
-    const auto result = set_up::set_up_triangle(piece, triangle.material, triangle.two_sided, guarded_frame_.grid, format_.words);
+    const auto result =
+        set_up::set_up_triangle(piece, triangle.material, triangle.two_sided, guarded_frame_.grid, format_.words);
     if (result.outcome == Outcome::drawn) drawn.push_back(result.words);
     if (triangle.fate != Fate::drawn)
-      triangle.fate = result.outcome == Outcome::drawn ? Fate::drawn : result.outcome == Outcome::back_face ? Fate::back_face : Fate::degenerate;
+      triangle.fate = result.outcome == Outcome::drawn       ? Fate::drawn
+                      : result.outcome == Outcome::back_face ? Fate::back_face
+                                                             : Fate::degenerate;
   }
 }
 
-// The first piece of a triangle takes the triangle's own slot, further ones free slots of the board, in the order of triangles.
+// The first piece of a triangle takes the triangle's own slot, further ones free slots of the board, in the order of
+// triangles.
 void Computation::allocate(Survey& survey) {
   extra_.clear();
   std::size_t next_free = 0;
@@ -163,8 +175,11 @@ void Computation::fit(Triangle& triangle, const geometry::SnapGrid& grid) {
       return;
     }
   } else {
-    const auto result = set_up::set_up_triangle(triangle.screen, triangle.material, triangle.two_sided, grid, format_.words);
-    triangle.fate = result.outcome == Outcome::drawn ? Fate::drawn : result.outcome == Outcome::back_face ? Fate::back_face : Fate::degenerate;
+    const auto result =
+        set_up::set_up_triangle(triangle.screen, triangle.material, triangle.two_sided, grid, format_.words);
+    triangle.fate = result.outcome == Outcome::drawn       ? Fate::drawn
+                    : result.outcome == Outcome::back_face ? Fate::back_face
+                                                           : Fate::degenerate;
     if (result.outcome == Outcome::drawn) {
       put(triangle.slot, triangle.object, result.words);
       triangle.loaded = true;
@@ -178,7 +193,8 @@ void Computation::fit(Triangle& triangle, const geometry::SnapGrid& grid) {
 void Computation::load_pieces() {
   for (const auto& [slot, piece] : extra_) {
     const auto last = loaded_extra_.find(slot);
-    if (last == loaded_extra_.end() || last->second.object != piece.object || !(last->second.words == piece.words)) put(slot, piece.object, piece.words);
+    if (last == loaded_extra_.end() || last->second.object != piece.object || !(last->second.words == piece.words))
+      put(slot, piece.object, piece.words);
   }
   for (const auto& [slot, piece] : loaded_extra_)
     if (!extra_.contains(slot)) park(slot);
@@ -205,7 +221,8 @@ TriangleCounts Computation::triangle_counts() const {
   return counts;
 }
 
-std::vector<std::vector<Piece>> place_pieces(std::vector<Piece>& homeless, const std::vector<std::uint32_t>& free_slots) {
+std::vector<std::vector<Piece>> place_pieces(std::vector<Piece>& homeless,
+                                             const std::vector<std::uint32_t>& free_slots) {
   std::vector<std::vector<Piece>> placed(free_slots.size());
   std::size_t next = 0;
   for (std::size_t unit = 0; unit < free_slots.size(); ++unit)

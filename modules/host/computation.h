@@ -1,6 +1,6 @@
-// A computation unit's work (004, section 5.2.4): the coefficients of its object processors, in two steps. It first transforms its triangles
-// and says whether one of them needs the guard band, because a whole frame is snapped to one grid; told the grid, it fits the coefficients.
-// Operations are counted in the code that computes.
+// A computation unit's work (004, section 5.2.4): the coefficients of its object processors, in two steps. It first
+// transforms its triangles and says whether one of them needs the guard band, because a whole frame is snapped to one
+// grid; told the grid, it fits the coefficients. Operations are counted in the code that computes.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 #include "modules/host/animation.h"
 #include "modules/host/assignment.h"
+#include "modules/host/resident_scene.h"
 #include "modules/set_up/pieces.h"
 #include "modules/set_up/triangle_set_up.h"
 #include "src/geometry/counted.h"
 #include "src/geometry/frame_grid.h"
-#include "src/scene/scene.h"
 
 namespace rastertlm::host {
 
@@ -42,8 +42,8 @@ inline constexpr std::uint64_t kParkWords = 3;  // the first edge alone: it is t
 
 struct Survey {
   bool guarded = false;
-  std::uint32_t free_slots = 0;      // left on the unit's own board
-  std::vector<Piece> homeless;       // pieces that found no slot there
+  std::uint32_t free_slots = 0;  // left on the unit's own board
+  std::vector<Piece> homeless;   // pieces that found no slot there
 };
 
 // What became of a unit's triangles in the current frame.
@@ -58,12 +58,13 @@ struct TriangleCounts {
 
 class Computation {
  public:
-  Computation(const scene::Scene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners);
+  Computation(const ResidentScene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners);
 
   // The first step. The survey covers all triangles of the unit, also those that did not change.
   Survey survey(const FrameWork& work);
 
-  // The second step: what to write, in slot order of need. `adopted`: pieces of other units that this board has slots for.
+  // The second step: what to write, in slot order of need. `adopted`: pieces of other units that this board has slots
+  // for.
   const std::vector<Load>& set_up(bool guarded, const std::vector<Piece>& adopted);
 
   // Operations since the start of the run.
@@ -77,15 +78,15 @@ class Computation {
   enum class Fate : std::uint8_t { unknown, drawn, back_face, degenerate, outside };
 
   struct Triangle {
-    std::uint32_t object;   // of the machine: the triangle's number in the scene, from 0
-    std::uint32_t mesh;     // object of the scene
+    std::uint32_t object;  // of the machine: the triangle's number in the scene, from 0
+    std::uint32_t mesh;    // object of the scene
     std::uint32_t corner[3];
     std::uint32_t slot;
     std::uint16_t material;
     bool two_sided;
     bool needs_guard = false;
-    bool renewed = false;   // in this frame
-    bool loaded = false;    // its slot is not parked
+    bool renewed = false;  // in this frame
+    bool loaded = false;   // its slot is not parked
     Fate fate = Fate::unknown;
     set_up::ScreenTriangle<Number> screen{};  // where it needs no guard band
   };
@@ -98,15 +99,16 @@ class Computation {
   void put(std::uint32_t slot, std::uint32_t object, const object_processor::TriangleWords& words);
   void park(std::uint32_t slot);
 
-  const scene::Scene& scene_;
+  const ResidentScene& scene_;
   MachineFormat format_;
   geometry::FrameGrid guarded_frame_;
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> free_slots_;      // that no triangle owns, ascending
-  std::map<std::uint32_t, std::vector<object_processor::TriangleWords>> cut_;  // by index of triangles_: what is drawn of clipped ones
-  std::map<std::uint32_t, Piece> extra_;       // by slot: pieces in free slots, this frame
+  std::vector<std::uint32_t> free_slots_;  // that no triangle owns, ascending
+  std::map<std::uint32_t, std::vector<object_processor::TriangleWords>>
+      cut_;                                      // by index of triangles_: what is drawn of clipped ones
+  std::map<std::uint32_t, Piece> extra_;         // by slot: pieces in free slots, this frame
   std::map<std::uint32_t, Piece> loaded_extra_;  // and as they were last written
-  std::vector<glm::dmat4> object_to_clip_;     // one an object of the scene
+  std::vector<glm::dmat4> object_to_clip_;       // one an object of the scene
   const FrameWork* work_ = nullptr;
   bool last_guarded_ = false;
   bool first_ = true;
@@ -114,7 +116,9 @@ class Computation {
   std::vector<Load> loads_;
 };
 
-// Gives homeless pieces to boards with free slots, board by board. Returns one list a unit; what fits nowhere is left in `homeless`.
-std::vector<std::vector<Piece>> place_pieces(std::vector<Piece>& homeless, const std::vector<std::uint32_t>& free_slots);
+// Gives homeless pieces to boards with free slots, board by board. Returns one list a unit; what fits nowhere is left
+// in `homeless`.
+std::vector<std::vector<Piece>> place_pieces(std::vector<Piece>& homeless,
+                                             const std::vector<std::uint32_t>& free_slots);
 
 }  // namespace rastertlm::host

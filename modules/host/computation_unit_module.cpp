@@ -14,10 +14,22 @@ using stream::Activity;
 using stream::picoseconds_now;
 using stream::wait_until;
 
-ComputationUnitModule::ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit, Computation& computation, const HostCost& cost,
-                                             std::size_t children, const sc_core::sc_event& swapped, Links links)
-    : sc_module(name), from_above("from_above"), to_above("to_above"), down("down", children), up("up", children), bus("bus"), ready("ready"), unit_(unit),
-      computation_(computation), cost_(cost), swapped_(swapped), links_(std::move(links)), meter_(cost.clock()) {
+ComputationUnitModule::ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit,
+                                             Computation& computation, const HostCost& cost, std::size_t children,
+                                             const sc_core::sc_event& swapped, Links links)
+    : sc_module(name),
+      from_above("from_above"),
+      to_above("to_above"),
+      down("down", children),
+      up("up", children),
+      bus("bus"),
+      ready("ready"),
+      unit_(unit),
+      computation_(computation),
+      cost_(cost),
+      swapped_(swapped),
+      links_(std::move(links)),
+      meter_(cost.clock()) {
   from_above.register_b_transport(this, &ComputationUnitModule::receive_from_above);
   for (auto& socket : up) socket.register_b_transport(this, &ComputationUnitModule::receive_from_below);
   write_payload_.set_command(tlm::TLM_WRITE_COMMAND);
@@ -30,7 +42,6 @@ ComputationUnitModule::ComputationUnitModule(const sc_core::sc_module_name& name
 
 void ComputationUnitModule::run_guarded() {
   stream::run_guarded([this] { run(); });
-  write_payload_.clear_extension(&object_number_);
 }
 
 // A frame:
@@ -83,8 +94,8 @@ void ComputationUnitModule::spend_computing(const geometry::OperationCounts& bef
   wait(stream::to_time(cost_.clock(), cycles));
 }
 
-// The words of a frame go to the bus as bursts with their time annotated; time passes once, at the end: nothing reads a loading RAM before the
-// unit is ready.
+// The words of a frame go to the bus as bursts with their time annotated; time passes once, at the end: nothing reads a
+// loading RAM before the unit is ready.
 void ComputationUnitModule::write_all(const std::vector<Load>& loads) {
   std::uint64_t words = 0;
   for (const Load& load : loads) words += write(load);
@@ -108,7 +119,8 @@ std::uint64_t ComputationUnitModule::write(const Load& load) {
   sc_core::sc_time delay;
   bus->b_transport(write_payload_, delay);
   if (write_payload_.is_response_error())
-    throw ModelError(name(), cost_.clock().cycles_at(picoseconds_now()).count(), "the board refused a bus write: " + write_payload_.get_response_string());
+    throw ModelError(name(), cost_.clock().cycles_at(picoseconds_now()).count(),
+                     "the board refused a bus write: " + write_payload_.get_response_string());
   return count;
 }
 
@@ -140,7 +152,8 @@ void ComputationUnitModule::report(Survey own) {
   message.kind = Message::Kind::survey;
   message.guarded = subtree_.guarded || own.guarded;
   message.free_slots.push_back({unit_, own.free_slots});
-  message.homeless.insert(message.homeless.end(), std::make_move_iterator(own.homeless.begin()), std::make_move_iterator(own.homeless.end()));
+  message.homeless.insert(message.homeless.end(), std::make_move_iterator(own.homeless.begin()),
+                          std::make_move_iterator(own.homeless.end()));
   message.bytes = survey_bytes(message);
   surveys_ = 0;
   subtree_.guarded = false;

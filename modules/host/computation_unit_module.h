@@ -1,5 +1,6 @@
-// A computation unit: one transputer with an object board on its bus. It receives a frame's changes, forwards them, transforms its triangles,
-// reports and is told the frame's grid, fits the coefficients and writes them to the loading RAMs.
+// A computation unit: one transputer with an object board on its bus. It receives a frame's changes, forwards them,
+// transforms its triangles, reports and is told the frame's grid, fits the coefficients and writes them to the loading
+// RAMs.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -29,15 +30,18 @@ class ComputationUnitModule : public sc_core::sc_module {
     stream::Link* bus;
   };
 
-  ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit, Computation& computation, const HostCost& cost, std::size_t children,
-                        const sc_core::sc_event& swapped, Links links);
+  ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit, Computation& computation,
+                        const HostCost& cost, std::size_t children, const sc_core::sc_event& swapped, Links links);
+  ~ComputationUnitModule() override {
+    write_payload_.clear_extension(&object_number_);
+  }  // it is a member, not the payload's to free
 
   // Cycles of one update, from the retrace that started it to the last word written.
   struct Update {
     std::int64_t animation_frame = 0;
-    Cycles cycles;           // all of it
-    Cycles computing;        // of which arithmetic
-    Cycles writing;          // and bus
+    Cycles cycles;     // all of it
+    Cycles computing;  // of which arithmetic
+    Cycles writing;    // and bus
     std::uint64_t flops = 0;
     std::uint64_t words = 0;
   };

@@ -8,12 +8,14 @@
 
 namespace rastertlm::host {
 
-// The computation units that `node` feeds, in order. In a tree every processor keeps one link for whoever feeds it (the animation unit: for
-// its user) and forwards on the others; in a chain it feeds the next alone.
-inline std::vector<std::size_t> children(std::size_t node, std::size_t units, LinkTopology topology, std::size_t links) {
+// The computation units that `node` feeds, in order. In a tree every processor keeps one link for whoever feeds it (the
+// animation unit: for its user) and forwards on the others; in a chain it feeds the next alone.
+inline std::vector<std::size_t> children(std::size_t node, std::size_t units, LinkTopology topology,
+                                         std::size_t links) {
   const std::size_t fan_out = topology == LinkTopology::chain ? 1 : links - 1;
   std::vector<std::size_t> result;
-  for (std::size_t child = node * fan_out + 1; child <= units && child <= (node + 1) * fan_out; ++child) result.push_back(child - 1);
+  for (std::size_t child = node * fan_out + 1; child <= units && child <= (node + 1) * fan_out; ++child)
+    result.push_back(child - 1);
   return result;
 }
 

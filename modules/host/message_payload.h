@@ -24,11 +24,11 @@ struct Message {
     plan,    // down: the frame's grid, and who draws those pieces
   };
   Kind kind = Kind::frame;
-  std::uint64_t bytes = 0;                                 // as they cross the link
-  const FrameWork* work = nullptr;                         // frame; it stays until the next frame's
-  bool guarded = false;                                    // survey, plan
-  std::vector<FreeSlots> free_slots;                       // survey
-  std::vector<Piece> homeless;                             // survey
+  std::uint64_t bytes = 0;                                  // as they cross the link
+  const FrameWork* work = nullptr;                          // frame; it stays until the next frame's
+  bool guarded = false;                                     // survey, plan
+  std::vector<FreeSlots> free_slots;                        // survey
+  std::vector<Piece> homeless;                              // survey
   const std::vector<std::vector<Piece>>* placed = nullptr;  // plan: one list a unit
 };
 

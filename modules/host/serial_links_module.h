@@ -1,5 +1,5 @@
-// The link side of a host processor: sends messages to the processors that it feeds and to the one that feeds it, store and forward, each
-// link on its own (a transputer's links work beside its processor).
+// The link side of a host processor: sends messages to the processors that it feeds and to the one that feeds it, store
+// and forward, each link on its own (a transputer's links work beside its processor).
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>

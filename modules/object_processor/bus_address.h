@@ -1,6 +1,7 @@
-// The address map of the object processors on a host bus (004, section 5.2.3): "Each coefficient has a specific address indicating the number
-// of the Triangle Processor, the number of the Elementary Processor and the address in the loading RAM." Byte addresses of 32-bit words:
-// board, processor, word (elementary processor * 3 + address, 21 the material).
+// The address map of the object processors on a host bus (004, section 5.2.3): "Each coefficient has a specific address
+// indicating the number of the Triangle Processor, the number of the Elementary Processor and the address in the
+// loading RAM." Byte addresses of 32-bit words: board, processor, word (elementary processor * 3 + address, 21 the
+// material).
 #pragma once
 
 #include <cstdint>
@@ -9,13 +10,14 @@
 
 namespace rastertlm::object_processor {
 
-inline constexpr unsigned kWordShift = 2;        // bytes of a word
-inline constexpr unsigned kProcessorShift = 7;   // 32 words a processor, 22 of them in use
-inline constexpr unsigned kBoardShift = 32;      // up to 2^25 processors a board
+inline constexpr unsigned kWordShift = 2;       // bytes of a word
+inline constexpr unsigned kProcessorShift = 7;  // 32 words a processor, 22 of them in use
+inline constexpr unsigned kBoardShift = 32;     // up to 2^25 processors a board
 static_assert(kWords <= (1U << (kProcessorShift - kWordShift)));
 
 constexpr std::uint64_t bus_address(std::uint32_t board, std::uint32_t processor, std::size_t word) {
-  return std::uint64_t{board} << kBoardShift | std::uint64_t{processor} << kProcessorShift | std::uint64_t{word} << kWordShift;
+  return std::uint64_t{board} << kBoardShift | std::uint64_t{processor} << kProcessorShift |
+         std::uint64_t{word} << kWordShift;
 }
 
 struct BusTarget {

@@ -9,9 +9,17 @@
 
 namespace rastertlm::object_processor {
 
-ObjectBoardModule::ObjectBoardModule(const sc_core::sc_module_name& name, std::uint32_t board_number, ObjectBoard& board, const Timing& timing,
-                                     std::size_t columns, stream::Link& link)
-    : sc_module(name), bus("bus"), sync("sync"), out("out"), board_number_(board_number), board_(board), timing_(timing), link_(link), pool_(columns) {
+ObjectBoardModule::ObjectBoardModule(const sc_core::sc_module_name& name, std::uint32_t board_number,
+                                     ObjectBoard& board, const Timing& timing, std::size_t columns, stream::Link& link)
+    : sc_module(name),
+      bus("bus"),
+      sync("sync"),
+      out("out"),
+      board_number_(board_number),
+      board_(board),
+      timing_(timing),
+      link_(link),
+      pool_(columns) {
   bus.register_b_transport(this, &ObjectBoardModule::write);
   sync.register_b_transport(this, &ObjectBoardModule::synchronise);
 }

@@ -1,4 +1,5 @@
-// An object board: the object processors of one computation unit behind one bus, sending one line of fragments a scan line.
+// An object board: the object processors of one computation unit behind one bus, sending one line of fragments a scan
+// line.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -25,8 +26,8 @@ class ObjectBoardModule : public sc_core::sc_module {
     Cycles first_pixel;  // from the start of a line to the word of its first pixel leaving the board
   };
 
-  ObjectBoardModule(const sc_core::sc_module_name& name, std::uint32_t board_number, ObjectBoard& board, const Timing& timing, std::size_t columns,
-                    stream::Link& link);
+  ObjectBoardModule(const sc_core::sc_module_name& name, std::uint32_t board_number, ObjectBoard& board,
+                    const Timing& timing, std::size_t columns, stream::Link& link);
 
   std::uint64_t words_loaded() const { return words_loaded_; }
   std::uint64_t lines_sent() const { return lines_sent_; }

@@ -6,9 +6,17 @@
 
 namespace rastertlm::shading {
 
-DeferredShadingModule::DeferredShadingModule(const sc_core::sc_module_name& name, DeferredShader& shader, std::size_t columns, const Clock& clock,
-                                             Cycles latency, stream::Link& link)
-    : sc_module(name), in("in"), bus("bus"), sync("sync"), out("out"), shader_(shader), latency_(stream::to_time(clock, latency)), link_(link) {
+DeferredShadingModule::DeferredShadingModule(const sc_core::sc_module_name& name, DeferredShader& shader,
+                                             std::size_t columns, const Clock& clock, Cycles latency,
+                                             stream::Link& link)
+    : sc_module(name),
+      in("in"),
+      bus("bus"),
+      sync("sync"),
+      out("out"),
+      shader_(shader),
+      latency_(stream::to_time(clock, latency)),
+      link_(link) {
   rgb_.resize(columns);
   in.register_b_transport(this, &DeferredShadingModule::shade);
   bus.register_b_transport(this, &DeferredShadingModule::write);

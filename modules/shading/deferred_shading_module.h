@@ -23,7 +23,8 @@ class DeferredShadingModule : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<DeferredShadingModule, stream::kNoBusWidth, stream::RgbProtocol> out;
 
   // `latency`: from a pixel's words to its levels.
-  DeferredShadingModule(const sc_core::sc_module_name& name, DeferredShader& shader, std::size_t columns, const Clock& clock, Cycles latency, stream::Link& link);
+  DeferredShadingModule(const sc_core::sc_module_name& name, DeferredShader& shader, std::size_t columns,
+                        const Clock& clock, Cycles latency, stream::Link& link);
 
   std::uint64_t words_loaded() const { return words_loaded_; }
 

@@ -18,19 +18,27 @@ using stream::picoseconds_now;
 
 namespace {
 
-std::size_t engine_of(TableKind kind) {
-  return kind == TableKind::diffuse ? 1 : kind == TableKind::specular ? 2 : 0;
-}
+std::size_t engine_of(TableKind kind) { return kind == TableKind::diffuse ? 1 : kind == TableKind::specular ? 2 : 0; }
 
 std::uint64_t to_picoseconds(double seconds) { return static_cast<std::uint64_t>(std::llround(seconds * 1e12)); }
 
 }  // namespace
 
-TableLoaderModule::TableLoaderModule(const sc_core::sc_module_name& name, DeferredShader& shader, const LoaderParameters& parameters,
-                                     std::vector<std::size_t> materials, std::uint64_t retrace_ps, const sc_core::sc_event& swapped,
+TableLoaderModule::TableLoaderModule(const sc_core::sc_module_name& name, DeferredShader& shader,
+                                     const LoaderParameters& parameters, std::vector<std::size_t> materials,
+                                     std::uint64_t retrace_ps, const sc_core::sc_event& swapped,
                                      std::array<Engine, kEngines> engines)
-    : sc_module(name), lights("lights"), sync("sync"), bus("bus"), ready("ready"), shader_(shader), parameters_(parameters), materials_(std::move(materials)),
-      retrace_ps_(retrace_ps), swapped_(swapped), engines_(std::move(engines)) {
+    : sc_module(name),
+      lights("lights"),
+      sync("sync"),
+      bus("bus"),
+      ready("ready"),
+      shader_(shader),
+      parameters_(parameters),
+      materials_(std::move(materials)),
+      retrace_ps_(retrace_ps),
+      swapped_(swapped),
+      engines_(std::move(engines)) {
   lights.register_b_transport(this, &TableLoaderModule::receive);
   sync.register_b_transport(this, &TableLoaderModule::synchronise);
   write_payload_.set_command(tlm::TLM_WRITE_COMMAND);
@@ -61,7 +69,8 @@ void TableLoaderModule::run() {
         occupy_engines();
       } else if (to_picoseconds(longest) > retrace_ps_) {
         throw InputError({"", 0, "loader.when",
-                          fmt::format("the tables that change with every frame take {:.6g} us to load, and the vertical retrace has {:.6g} us; a faster loader, or "
+                          fmt::format("the tables that change with every frame take {:.6g} us to load, and the "
+                                      "vertical retrace has {:.6g} us; a faster loader, or "
                                       "loader.when = \"frame\", would do",
                                       longest * 1e6, static_cast<double>(retrace_ps_) * 1e-6)});
       } else {
@@ -82,7 +91,8 @@ void TableLoaderModule::run() {
 void TableLoaderModule::occupy_engines() {
   const std::uint64_t start = picoseconds_now();
   std::array<double, kEngines> busy{};
-  for (const auto& [loader, seconds] : seconds_) busy[engine_of(loader.kind)] = std::max(busy[engine_of(loader.kind)], seconds);
+  for (const auto& [loader, seconds] : seconds_)
+    busy[engine_of(loader.kind)] = std::max(busy[engine_of(loader.kind)], seconds);
   std::vector<std::pair<std::uint64_t, std::size_t>> ends;
   for (std::size_t engine = 0; engine < kEngines; ++engine) {
     if (busy[engine] == 0.0) continue;
@@ -132,7 +142,8 @@ void TableLoaderModule::write_job(const TableJob& job) {
   }
   Engine& engine = engines_[engine_of(job.table.kind)];
   const double seconds = job_seconds(parameters_, job);
-  engine.link->record(words_.size(), Cycles(static_cast<std::uint64_t>(std::llround(seconds * engine.link->clock().frequency_hz()))));
+  engine.link->record(words_.size(),
+                      Cycles(static_cast<std::uint64_t>(std::llround(seconds * engine.link->clock().frequency_hz()))));
   write_words(job.table, job.first_entry);
 }
 
@@ -144,7 +155,8 @@ void TableLoaderModule::write_words(const TableId& table, std::uint32_t first_en
   write_payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
   sc_core::sc_time delay;
   bus->b_transport(write_payload_, delay);
-  if (write_payload_.is_response_error()) throw ModelError(name(), 0, "the tables refused a write: " + write_payload_.get_response_string());
+  if (write_payload_.is_response_error())
+    throw ModelError(name(), 0, "the tables refused a write: " + write_payload_.get_response_string());
   words_sent_ += words_.size();
 }
 

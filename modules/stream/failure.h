@@ -1,5 +1,6 @@
-// SystemC turns an exception that leaves a process into a report of its own, and the unit and cycle it named are lost. A process body runs
-// guarded instead: the first failure is kept, the simulation stops, and whoever started it throws the failure on.
+// SystemC turns an exception that leaves a process into a report of its own, and the unit and cycle it named are lost.
+// A process body runs guarded instead: the first failure is kept, the simulation stops, and whoever started it throws
+// the failure on.
 #pragma once
 
 #include <exception>

@@ -1,5 +1,5 @@
-// What crosses the links between boards: one transaction a scan line. The payloads derive from tlm_generic_payload because the simple
-// sockets ask for it; its command, address and data mean nothing here.
+// What crosses the links between boards: one transaction a scan line. The payloads derive from tlm_generic_payload
+// because the simple sockets ask for it; its command, address and data mean nothing here.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,9 @@ struct SyncPayload : tlm::tlm_generic_payload {
   Kind kind = Kind::line;
   std::uint64_t frame = 0;
   std::size_t line = 0;
-  bool copy = false;           // retrace: loading RAMs go to backup RAMs
-  bool switch_tables = false;  // retrace: set by the table loader for the shading processor behind it: use the other bank
+  bool copy = false;  // retrace: loading RAMs go to backup RAMs
+  bool switch_tables =
+      false;  // retrace: set by the table loader for the shading processor behind it: use the other bank
 };
 
 template <class Payload>

@@ -1,4 +1,5 @@
-// A link between two units: its width, its clock, and how much has crossed it. Bandwidth is computed here and nowhere else.
+// A link between two units: its width, its clock, and how much has crossed it. Bandwidth is computed here and nowhere
+// else.
 #pragma once
 
 #include <cstdint>

@@ -20,15 +20,16 @@ struct Occupancy {
   void check(const std::string& unit) const {
     if (busy + starved + blocked + idle != cycles)
       throw ModelError(unit, cycles,
-                       "busy " + std::to_string(busy) + " + starved " + std::to_string(starved) + " + blocked " + std::to_string(blocked) +
-                           " + idle " + std::to_string(idle) + " is not " + std::to_string(cycles) + " cycles");
+                       "busy " + std::to_string(busy) + " + starved " + std::to_string(starved) + " + blocked " +
+                           std::to_string(blocked) + " + idle " + std::to_string(idle) + " is not " +
+                           std::to_string(cycles) + " cycles");
   }
 };
 
 enum class Activity { busy, starved, blocked, idle };
 
-// Follows one unit through simulated time and counts the cycles of its clock in each activity. A cycle belongs to the activity during which
-// it begins, so the four always add up.
+// Follows one unit through simulated time and counts the cycles of its clock in each activity. A cycle belongs to the
+// activity during which it begins, so the four always add up.
 class OccupancyMeter {
  public:
   explicit OccupancyMeter(Clock clock) : clock_(std::move(clock)) {}
@@ -56,10 +57,18 @@ class OccupancyMeter {
     since_ = now;
     occupancy_.cycles += passed;
     switch (activity_) {
-      case Activity::busy: occupancy_.busy += passed; break;
-      case Activity::starved: occupancy_.starved += passed; break;
-      case Activity::blocked: occupancy_.blocked += passed; break;
-      case Activity::idle: occupancy_.idle += passed; break;
+      case Activity::busy:
+        occupancy_.busy += passed;
+        break;
+      case Activity::starved:
+        occupancy_.starved += passed;
+        break;
+      case Activity::blocked:
+        occupancy_.blocked += passed;
+        break;
+      case Activity::idle:
+        occupancy_.idle += passed;
+        break;
     }
   }
 

@@ -8,7 +8,8 @@
 namespace rastertlm::stream {
 
 inline sc_core::sc_time to_time(std::uint64_t picoseconds) {
-  return sc_core::sc_time::from_value(picoseconds);  // the kernel's resolution is 1 ps (checked where the platform is built)
+  return sc_core::sc_time::from_value(
+      picoseconds);  // the kernel's resolution is 1 ps (checked where the platform is built)
 }
 
 inline sc_core::sc_time to_time(const Clock& clock, Cycles cycles) { return to_time(clock.picoseconds(cycles)); }

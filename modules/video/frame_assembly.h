@@ -13,9 +13,9 @@ class FrameAssembly {
   struct Format {
     std::size_t columns = 0;
     std::size_t lines = 0;
-    unsigned normal_bits = 12;               // of a normal word: a sign bit above a one's complement magnitude
+    unsigned normal_bits = 12;  // of a normal word: a sign bit above a one's complement magnitude
     std::uint32_t background_depth = 0xFFFFFF;
-    bool observe = true;                     // false: only the levels are kept
+    bool observe = true;  // false: only the levels are kept
   };
 
   explicit FrameAssembly(const Format& format);

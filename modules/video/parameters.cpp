@@ -3,16 +3,24 @@
 namespace rastertlm::video {
 
 void VideoParameters::declare(parameter::Table& table) {
-  table.integer("video.columns", columns, {1, 16384},
-                {.unit = "pixels", .description = "Pixels shown on a line.", .moves = "width of the picture, line cycles"});
-  table.integer("video.lines", lines, {1, 16384},
-                {.unit = "lines", .description = "Lines shown in a frame.", .moves = "height of the picture, frame cycles"});
+  table.integer(
+      "video.columns", columns, {1, 16384},
+      {.unit = "pixels", .description = "Pixels shown on a line.", .moves = "width of the picture, line cycles"});
+  table.integer(
+      "video.lines", lines, {1, 16384},
+      {.unit = "lines", .description = "Lines shown in a frame.", .moves = "height of the picture, frame cycles"});
   table.real("video.refresh_hz", refresh_hz, {0.0, 1000.0, true},
-             {.unit = "Hz", .description = "Frames that the screen asks for each second.", .moves = "answer.required_rate_hz"});
+             {.unit = "Hz",
+              .description = "Frames that the screen asks for each second.",
+              .moves = "answer.required_rate_hz"});
   table.real("video.pixel_clock_ns", pixel_clock_ns, {0.1, 1e6},
-             {.unit = "ns", .description = "Period of the pixel clock, which all boards share.", .moves = "budgets line_start, adder_delay"});
+             {.unit = "ns",
+              .description = "Period of the pixel clock, which all boards share.",
+              .moves = "budgets line_start, adder_delay"});
   table.real("video.vertical_retrace_us", vertical_retrace_us, {0.0, 1e6},
-             {.unit = "us", .description = "Vertical retrace, in which loading RAMs are copied.", .moves = "budgets frame_start, pipeline_skew"});
+             {.unit = "us",
+              .description = "Vertical retrace, in which loading RAMs are copied.",
+              .moves = "budgets frame_start, pipeline_skew"});
 }
 
 }  // namespace rastertlm::video

@@ -14,13 +14,15 @@ Timing timing(const VideoParameters& parameters) {
   t.frame = t.clock.cycles_round(1.0 / parameters.refresh_hz);
   const Cycles retrace = t.clock.cycles_round(parameters.vertical_retrace_us * 1e-6);
   if (retrace >= t.frame)
-    throw InputError({"", 0, "video.vertical_retrace_us",
-                      fmt::format("a retrace of {} us ({} pixel clocks) is not shorter than the frame of {} pixel clocks at {} Hz",
-                                  parameters.vertical_retrace_us, retrace.count(), t.frame.count(), parameters.refresh_hz)});
+    throw InputError(
+        {"", 0, "video.vertical_retrace_us",
+         fmt::format("a retrace of {} us ({} pixel clocks) is not shorter than the frame of {} pixel clocks at {} Hz",
+                     parameters.vertical_retrace_us, retrace.count(), t.frame.count(), parameters.refresh_hz)});
   t.line = Cycles((t.frame - retrace).count() / lines);
   if (t.line.count() <= columns)
     throw InputError({"", 0, "video.pixel_clock_ns",
-                      fmt::format("a pixel clock of {} ns leaves {} clocks for a line of {} pixels, and no horizontal blanking; at most {:.6g} ns would leave some",
+                      fmt::format("a pixel clock of {} ns leaves {} clocks for a line of {} pixels, and no horizontal "
+                                  "blanking; at most {:.6g} ns would leave some",
                                   parameters.pixel_clock_ns, t.line.count(), columns,
                                   (1e9 / parameters.refresh_hz - 1e3 * parameters.vertical_retrace_us) /
                                       (static_cast<double>(lines) * static_cast<double>(columns + 1)))});

@@ -1,5 +1,6 @@
-// Video timing in whole pixel clocks: a frame is its vertical retrace followed by its lines; a line is its horizontal blanking followed by
-// its pixels. What does not divide joins the vertical retrace, so that the rate is never below the one that whole lines would give.
+// Video timing in whole pixel clocks: a frame is its vertical retrace followed by its lines; a line is its horizontal
+// blanking followed by its pixels. What does not divide joins the vertical retrace, so that the rate is never below the
+// one that whole lines would give.
 #pragma once
 
 #include "modules/video/parameters.h"

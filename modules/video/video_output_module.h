@@ -1,4 +1,5 @@
-// The video output: assembles the lines that arrive into the frame that the screen shows, with what observers saw of each pixel.
+// The video output: assembles the lines that arrive into the frame that the screen shows, with what observers saw of
+// each pixel.
 #pragma once
 
 #include <tlm_utils/simple_target_socket.h>
@@ -15,7 +16,8 @@ class VideoOutputModule : public sc_core::sc_module {
  public:
   tlm_utils::simple_target_socket<VideoOutputModule, stream::kNoBusWidth, stream::RgbProtocol> in;
 
-  // Called with each finished frame; `last_pixel_ps` is the time at which its last pixel left, counted from the start of the simulation.
+  // Called with each finished frame; `last_pixel_ps` is the time at which its last pixel left, counted from the start
+  // of the simulation.
   using FrameSink = std::function<void(std::uint64_t frame, const frame::Frame&, std::uint64_t last_pixel_ps)>;
 
   VideoOutputModule(const sc_core::sc_module_name& name, const FrameAssembly::Format& format, FrameSink sink);

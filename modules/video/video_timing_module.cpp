@@ -10,9 +10,16 @@ namespace rastertlm::video {
 
 using stream::SyncPayload;
 
-VideoTimingModule::VideoTimingModule(const sc_core::sc_module_name& name, const Timing& timing, std::size_t lines, std::size_t listeners,
-                                     std::size_t computation_units, std::uint64_t frames, std::uint64_t patience)
-    : sc_module(name), sync("sync", listeners), ready("ready", computation_units), timing_(timing), lines_(lines), frames_(frames), patience_(patience) {
+VideoTimingModule::VideoTimingModule(const sc_core::sc_module_name& name, const Timing& timing, std::size_t lines,
+                                     std::size_t listeners, std::size_t computation_units, std::uint64_t frames,
+                                     std::uint64_t patience)
+    : sc_module(name),
+      sync("sync", listeners),
+      ready("ready", computation_units),
+      timing_(timing),
+      lines_(lines),
+      frames_(frames),
+      patience_(patience) {
   SC_HAS_PROCESS(VideoTimingModule);
   SC_THREAD(run_guarded);
 }
@@ -21,7 +28,8 @@ bool VideoTimingModule::everything_ready() const {
   return tables_ready.read() && std::all_of(ready.begin(), ready.end(), [](const auto& unit) { return unit.read(); });
 }
 
-void VideoTimingModule::announce(SyncPayload::Kind kind, std::uint64_t frame, std::size_t line, bool copy, Cycles since_frame_start) {
+void VideoTimingModule::announce(SyncPayload::Kind kind, std::uint64_t frame, std::size_t line, bool copy,
+                                 Cycles since_frame_start) {
   payload_.kind = kind;
   payload_.frame = frame;
   payload_.line = line;
@@ -39,9 +47,11 @@ void VideoTimingModule::run_guarded() {
 
 // A frame:
 // 1. the retrace begins; where all is ready, loading RAMs are copied and tables switched, and the hosts may go on;
-// 2. its lines are announced with their times as delays: nothing that a line reads can change before the next retrace, so the kernel need
+// 2. its lines are announced with their times as delays: nothing that a line reads can change before the next retrace,
+// so the kernel need
 //    not stop at each;
-// 3. time passes to the end of the frame, counted from the start of the simulation in cycles.
+// 3. whoever runs the simulation gets a chance to look at the frame;
+// 4. time passes to the end of the frame, counted from the start of the simulation in cycles.
 void VideoTimingModule::run() {
   for (std::uint64_t video_frame = 0; displayed_ < frames_; ++video_frame) {
     if (!showing_ && video_frame > patience_)
@@ -59,8 +69,10 @@ void VideoTimingModule::run() {
     announce(SyncPayload::Kind::retrace, displayed_, 0, copy, Cycles(0));
     if (copy) swapped.notify(sc_core::SC_ZERO_TIME);
     if (showing_) {
-      for (std::size_t line = 0; line < lines_; ++line) announce(SyncPayload::Kind::line, displayed_, line, false, timing_.line_start(line));
+      for (std::size_t line = 0; line < lines_; ++line)
+        announce(SyncPayload::Kind::line, displayed_, line, false, timing_.line_start(line));
       ++displayed_;
+      sc_core::sc_pause();
     }
     const std::uint64_t end = timing_.clock.picoseconds(timing_.frame * (video_frame + 1));
     wait(stream::to_time(end - stream::picoseconds_now()));

@@ -1,5 +1,5 @@
-// The video timing: says to every board when the retrace begins and when a line begins, and at the retrace whether the loading RAMs are
-// copied. It owns the only clock of the display side.
+// The video timing: says to every board when the retrace begins and when a line begins, and at the retrace whether the
+// loading RAMs are copied. It owns the only clock of the display side.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -16,17 +16,18 @@ class VideoTimingModule : public sc_core::sc_module {
  public:
   using SyncSocket = tlm_utils::simple_initiator_socket<VideoTimingModule, stream::kNoBusWidth, stream::SyncProtocol>;
 
-  sc_core::sc_vector<SyncSocket> sync;               // one a listener, served in order
-  sc_core::sc_vector<sc_core::sc_in<bool>> ready;    // one a computation unit: its loading RAMs hold the next frame
+  sc_core::sc_vector<SyncSocket> sync;                // one a listener, served in order
+  sc_core::sc_vector<sc_core::sc_in<bool>> ready;     // one a computation unit: its loading RAMs hold the next frame
   sc_core::sc_in<bool> tables_ready{"tables_ready"};  // the bank that is being written holds the next frame's tables
-  sc_core::sc_event swapped;                         // at a retrace that copied
+  sc_core::sc_event swapped;                          // at a retrace that copied
 
-  // Shows `frames` frames, the first at the first retrace at which everything is ready. Gives up with a ModelError after
-  // `patience` frames without a first picture.
+  // Shows `frames` frames, the first at the first retrace at which everything is ready. Gives up with a ModelError
+  // after `patience` frames without a first picture.
   VideoTimingModule(const sc_core::sc_module_name& name, const Timing& timing, std::size_t lines, std::size_t listeners,
                     std::size_t computation_units, std::uint64_t frames, std::uint64_t patience);
 
-  // Picoseconds at which the first displayed frame's retrace began, and the number of displayed frames that showed new coefficients.
+  // Picoseconds at which the first displayed frame's retrace began, and the number of displayed frames that showed new
+  // coefficients.
   std::uint64_t first_frame_ps() const { return first_frame_ps_; }
   std::uint64_t updates() const { return updates_; }
   std::uint64_t frames_before_first() const { return frames_before_first_; }
@@ -38,7 +39,8 @@ class VideoTimingModule : public sc_core::sc_module {
   void run_guarded();
   void run();
   bool everything_ready() const;
-  void announce(stream::SyncPayload::Kind kind, std::uint64_t frame, std::size_t line, bool copy, Cycles since_frame_start);
+  void announce(stream::SyncPayload::Kind kind, std::uint64_t frame, std::size_t line, bool copy,
+                Cycles since_frame_start);
 
   Timing timing_;
   std::size_t lines_;

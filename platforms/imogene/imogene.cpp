@@ -21,9 +21,22 @@ std::vector<std::size_t> used_materials(const scene::Scene& scene, shading::Load
   if (which == shading::LoadedMaterials::all) {
     for (std::size_t i = 0; i < scene.materials.size(); ++i) used.insert(i);
   } else {
-    for (const scene::Object& object : scene.objects) used.insert(object.mesh.material.begin(), object.mesh.material.end());
+    for (const scene::Object& object : scene.objects)
+      used.insert(object.mesh.material.begin(), object.mesh.material.end());
   }
   return {used.begin(), used.end()};
+}
+
+host::ResidentScene resident_scene(const Machine& machine, const scene::Scene& scene) {
+  host::ResidentScene resident;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    resident.objects.push_back({&scene.objects[i].mesh, scene.objects[i].two_sided, scene::object_moves(scene, i)});
+  resident.camera_moves = scene::camera_moves(scene);
+  resident.pose = [&scene, columns = static_cast<std::size_t>(machine.video.columns),
+                   lines = static_cast<std::size_t>(machine.video.lines)](std::int64_t frame) {
+    return scene::pose(scene, frame, columns, lines);
+  };
+  return resident;
 }
 
 std::size_t banks(const Machine& machine) { return machine.loader.when == shading::LoadTime::frame ? 2 : 1; }
@@ -37,13 +50,24 @@ Cycles cycles_of(std::int64_t count) { return Cycles(static_cast<std::uint64_t>(
 }  // namespace
 
 Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Options& options, Sink sink)
-    : machine_(machine), scene_(scene), options_(options), sink_(std::move(sink)), timing_(video::timing(machine.video)), grids_(snap_grids(machine)),
-      cost_(machine.host), slots_(host::assign_objects(scene.triangle_count(), machine.host)),
-      animation_(scene, static_cast<std::size_t>(machine.video.columns), static_cast<std::size_t>(machine.video.lines), machine.host.send == host::Send::all),
-      decision_(machine.decision_unit, depth_of_nothing(machine)), shader_(machine.shading, machine.object_processor.normal_bits, banks(machine)) {
-  if (sc_core::sc_get_time_resolution() != sc_core::sc_time(1, sc_core::SC_PS)) throw ModelError("platform", 0, "SystemC's time resolution is not 1 ps");
-  decision_latency_ = decision_unit::latency(machine.decision_unit.topology, machine.processors(), cycles_of(machine.object_processor.comparator_cycles));
-  pixel_latency_ = cycles_of(machine.object_processor.prenormalisation_cycles) + decision_latency_ + machine.shading.total_latency();
+    : machine_(machine),
+      scene_(scene),
+      options_(options),
+      sink_(std::move(sink)),
+      timing_(video::timing(machine.video)),
+      grids_(snap_grids(machine)),
+      cost_(machine.host),
+      slots_(host::assign_objects(scene.triangle_count(), machine.host)),
+      resident_(resident_scene(machine, scene)),
+      animation_(resident_, machine.host.send == host::Send::all),
+      decision_(machine.decision_unit, depth_of_nothing(machine)),
+      shader_(machine.shading, machine.object_processor.normal_bits, banks(machine)) {
+  if (sc_core::sc_get_time_resolution() != sc_core::sc_time(1, sc_core::SC_PS))
+    throw ModelError("platform", 0, "SystemC's time resolution is not 1 ps");
+  decision_latency_ = decision_unit::latency(machine.decision_unit.topology, machine.processors(),
+                                             cycles_of(machine.object_processor.comparator_cycles));
+  pixel_latency_ =
+      cycles_of(machine.object_processor.prenormalisation_cycles) + decision_latency_ + machine.shading.total_latency();
   load_materials();
   build_links();
   build_hosts();
@@ -57,62 +81,88 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
 void Imogene::load_materials() {
   if (scene_.materials.size() > static_cast<std::size_t>(machine_.shading.materials))
     throw InputError({"", 0, "shading.materials",
-                      fmt::format("the scene has {} materials and the shading tables hold {}", scene_.materials.size(), machine_.shading.materials)});
+                      fmt::format("the scene has {} materials and the shading tables hold {}", scene_.materials.size(),
+                                  machine_.shading.materials)});
   if (scene_.lights.size() > static_cast<std::size_t>(machine_.shading.lights))
-    throw InputError({"", 0, "shading.lights", fmt::format("the scene has {} lights and the shading processor units for {}", scene_.lights.size(), machine_.shading.lights)});
+    throw InputError({"", 0, "shading.lights",
+                      fmt::format("the scene has {} lights and the shading processor units for {}",
+                                  scene_.lights.size(), machine_.shading.lights)});
   Diagnostics diagnostics;
   for (std::size_t i = 0; i < scene_.lights.size(); ++i)
     if (scene_.lights[i].kind == scene::LightKind::point)
-      diagnostics.add({"", 0, fmt::format("light[{}].type", i), "this machine lights from infinitely far: \"directional\" alone"});
-  if (scene_.model != scene::LightingModel::blinn) diagnostics.add({"", 0, "lighting.model", "this machine shades by Blinn's model: \"blinn\" alone"});
-  if (scene_.specular_gate) diagnostics.add({"", 0, "lighting.specular_gate", "this machine's specular tables know nothing of N.L: false alone"});
+      diagnostics.add(
+          {"", 0, fmt::format("light[{}].type", i), "this machine lights from infinitely far: \"directional\" alone"});
+  if (scene_.model != scene::LightingModel::blinn)
+    diagnostics.add({"", 0, "lighting.model", "this machine shades by Blinn's model: \"blinn\" alone"});
+  if (scene_.specular_gate)
+    diagnostics.add(
+        {"", 0, "lighting.specular_gate", "this machine's specular tables know nothing of N.L: false alone"});
   diagnostics.throw_if_any();
   for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
     const scene::Material& material = scene_.materials[i];
-    shader_.set_material(i, {{material.colour.x, material.colour.y, material.colour.z}, material.ambient, material.diffuse, material.specular, material.exponent},
+    shader_.set_material(i,
+                         {{material.colour.x, material.colour.y, material.colour.z},
+                          material.ambient,
+                          material.diffuse,
+                          material.specular,
+                          material.exponent},
                          fmt::format("material[{}].exponent", i));
   }
   shader_.set_ambient_light({scene_.ambient_light.x, scene_.ambient_light.y, scene_.ambient_light.z});
   shader_.set_background({scene_.background.x, scene_.background.y, scene_.background.z});
 }
 
-stream::Link& Imogene::add_link(const std::string& name, unsigned bits, const Clock& clock) { return links_.emplace_back(name, bits, clock); }
+stream::Link& Imogene::add_link(const std::string& name, unsigned bits, const Clock& clock) {
+  return links_.emplace_back(name, bits, clock);
+}
 
 void Imogene::build_links() {
   const auto units = static_cast<std::size_t>(machine_.host.computation_units);
   // A link moves one byte in link_bits_per_byte bit times.
-  const Clock byte_clock = Clock::from_frequency_hz("link bytes", static_cast<std::uint64_t>(machine_.host.link_mbit_per_s * 1e6 / machine_.host.link_bits_per_byte));
-  const Clock bus_clock = Clock::from_frequency_hz("bus words", static_cast<std::uint64_t>(machine_.host.clock_hz / machine_.host.bus_cycles_per_word));
-  const decision_unit::LinkWidth width{static_cast<std::uint64_t>(machine_.object_processor.word_bits), static_cast<std::uint64_t>(machine_.object_processor.normal_bits),
+  const Clock byte_clock = Clock::from_frequency_hz(
+      "link bytes", static_cast<std::uint64_t>(machine_.host.link_mbit_per_s * 1e6 / machine_.host.link_bits_per_byte));
+  const Clock bus_clock = Clock::from_frequency_hz(
+      "bus words", static_cast<std::uint64_t>(machine_.host.clock_hz / machine_.host.bus_cycles_per_word));
+  const decision_unit::LinkWidth width{static_cast<std::uint64_t>(machine_.object_processor.word_bits),
+                                       static_cast<std::uint64_t>(machine_.object_processor.normal_bits),
                                        machine_.material_bits()};
-  for (std::size_t k = 0; k < units; ++k) host_links_.push_back(&add_link(fmt::format("host link {}", k), 8, byte_clock));
+  for (std::size_t k = 0; k < units; ++k)
+    host_links_.push_back(&add_link(fmt::format("host link {}", k), 8, byte_clock));
   for (std::size_t k = 0; k < units; ++k) bus_links_.push_back(&add_link(fmt::format("bus {}", k), 32, bus_clock));
-  for (std::size_t k = 0; k < units; ++k) board_links_.push_back(&add_link(fmt::format("board {} to decision unit", k), static_cast<unsigned>(width.bits()), timing_.clock));
+  for (std::size_t k = 0; k < units; ++k)
+    board_links_.push_back(
+        &add_link(fmt::format("board {} to decision unit", k), static_cast<unsigned>(width.bits()), timing_.clock));
 }
 
 void Imogene::build_hosts() {
-  const host::MachineFormat format{{static_cast<int>(machine_.object_processor.word_bits), static_cast<std::size_t>(machine_.video.columns),
-                                    static_cast<std::size_t>(machine_.video.lines), machine_.object_processor.edges},
-                                   grids_,
-                                   {static_cast<std::size_t>(machine_.video.columns), static_cast<std::size_t>(machine_.video.lines)},
-                                   static_cast<std::uint32_t>(machine_.host.processors_per_unit)};
+  const host::MachineFormat format{
+      {static_cast<int>(machine_.object_processor.word_bits), static_cast<std::size_t>(machine_.video.columns),
+       static_cast<std::size_t>(machine_.video.lines), machine_.object_processor.edges},
+      grids_,
+      {static_cast<std::size_t>(machine_.video.columns), static_cast<std::size_t>(machine_.video.lines)},
+      static_cast<std::uint32_t>(machine_.host.processors_per_unit)};
   const std::size_t units = slots_.boards.size();
   const auto links = static_cast<std::size_t>(machine_.host.links);
   const auto below = [&](std::size_t node) {
     std::vector<stream::Link*> result;
-    for (const std::size_t child : host::children(node, units, machine_.host.link_topology, links)) result.push_back(host_links_[child]);
+    for (const std::size_t child : host::children(node, units, machine_.host.link_topology, links))
+      result.push_back(host_links_[child]);
     return result;
   };
   // The retraces are the video timing's, which comes first.
-  video_timing_ = std::make_unique<video::VideoTimingModule>("video_timing", timing_, static_cast<std::size_t>(machine_.video.lines), units + 2, units,
-                                                             options_.frames, kPatienceFrames);
+  video_timing_ = std::make_unique<video::VideoTimingModule>("video_timing", timing_,
+                                                             static_cast<std::size_t>(machine_.video.lines), units + 2,
+                                                             units, options_.frames, kPatienceFrames);
   animation_unit_ = std::make_unique<host::AnimationUnitModule>(
       "animation_unit", animation_, cost_, below(0).size(), units, machine_.host.overflow,
-      host::AnimationUnitModule::Timeline{&video_timing_->swapped, [this] { return video_timing_->displayed_frame() - 1; }}, below(0));
+      host::AnimationUnitModule::Timeline{&video_timing_->swapped,
+                                          [this] { return video_timing_->displayed_frame() - 1; }},
+      below(0));
   for (std::size_t k = 0; k < units; ++k) {
-    computations_.push_back(std::make_unique<host::Computation>(scene_, format, slots_.boards[k]));
+    computations_.push_back(std::make_unique<host::Computation>(resident_, format, slots_.boards[k]));
     computation_units_.push_back(std::make_unique<host::ComputationUnitModule>(
-        fmt::format("computation_unit_{}", k).c_str(), static_cast<std::uint32_t>(k), *computations_[k], cost_, below(k + 1).size(), video_timing_->swapped,
+        fmt::format("computation_unit_{}", k).c_str(), static_cast<std::uint32_t>(k), *computations_[k], cost_,
+        below(k + 1).size(), video_timing_->swapped,
         host::ComputationUnitModule::Links{host_links_[k], below(k + 1), bus_links_[k]}));
   }
 }
@@ -123,11 +173,13 @@ void Imogene::build_boards() {
   const Cycles first_pixel = timing_.horizontal_blanking + cycles_of(machine_.object_processor.prenormalisation_cycles);
   boards_.reserve(units);
   for (std::size_t k = 0; k < units; ++k) {
-    boards_.emplace_back(machine_.object_processor, processors, static_cast<std::uint32_t>(k) * processors, static_cast<std::uint32_t>(machine_.video.columns),
-                         static_cast<std::uint32_t>(machine_.video.lines),
-                         options_.model_everything ? object_processor::Visit::everything : object_processor::Visit::needed);
+    boards_.emplace_back(
+        machine_.object_processor, processors, static_cast<std::uint32_t>(k) * processors,
+        static_cast<std::uint32_t>(machine_.video.columns), static_cast<std::uint32_t>(machine_.video.lines),
+        options_.model_everything ? object_processor::Visit::everything : object_processor::Visit::needed);
     board_modules_.push_back(std::make_unique<object_processor::ObjectBoardModule>(
-        fmt::format("object_board_{}", k).c_str(), static_cast<std::uint32_t>(k), boards_[k], object_processor::ObjectBoardModule::Timing{timing_.clock, first_pixel},
+        fmt::format("object_board_{}", k).c_str(), static_cast<std::uint32_t>(k), boards_[k],
+        object_processor::ObjectBoardModule::Timing{timing_.clock, first_pixel},
         static_cast<std::size_t>(machine_.video.columns), *board_links_[k]));
   }
 }
@@ -136,30 +188,38 @@ void Imogene::build_shading() {
   const auto columns = static_cast<std::size_t>(machine_.video.columns);
   const unsigned fragment_bits = board_links_.front()->bits();
   stream::Link& decided = add_link("decision unit to shading", fragment_bits, timing_.clock);
-  stream::Link& rgb = add_link("shading to video", 3 * static_cast<unsigned>(machine_.shading.level_bits), timing_.clock);
-  decision_module_ = std::make_unique<decision_unit::DecisionUnitModule>("decision_unit", decision_, boards_.size(), timing_.clock, decision_latency_, decided);
-  shading_module_ = std::make_unique<shading::DeferredShadingModule>("deferred_shading", shader_, columns, timing_.clock, machine_.shading.total_latency(), rgb);
+  stream::Link& rgb =
+      add_link("shading to video", 3 * static_cast<unsigned>(machine_.shading.level_bits), timing_.clock);
+  decision_module_ = std::make_unique<decision_unit::DecisionUnitModule>("decision_unit", decision_, boards_.size(),
+                                                                         timing_.clock, decision_latency_, decided);
+  shading_module_ = std::make_unique<shading::DeferredShadingModule>(
+      "deferred_shading", shader_, columns, timing_.clock, machine_.shading.total_latency(), rgb);
 
   const bool sequencer = machine_.loader.kind == shading::LoaderKind::sequencer;
   const auto engine = [&](const char* name, double mhz, std::int64_t bits) {
-    const Clock clock = sequencer ? Clock::from_period_ns(name, machine_.loader.sequencer_clock_ns) : Clock::from_frequency_hz(name, static_cast<std::uint64_t>(mhz * 1e6));
+    const Clock clock = sequencer ? Clock::from_period_ns(name, machine_.loader.sequencer_clock_ns)
+                                  : Clock::from_frequency_hz(name, static_cast<std::uint64_t>(mhz * 1e6));
     stream::Link& link = add_link(fmt::format("{} to tables", name), static_cast<unsigned>(bits), clock);
     table_links_.push_back(&link);
     return shading::TableLoaderModule::Engine{&link, stream::OccupancyMeter(clock)};
   };
   table_loader_ = std::make_unique<shading::TableLoaderModule>(
-      "table_loader", shader_, machine_.loader, used_materials(scene_, machine_.loader.materials), timing_.clock.picoseconds(timing_.vertical_retrace),
-      video_timing_->swapped,
-      std::array<shading::TableLoaderModule::Engine, 3>{engine("dot product loader", machine_.loader.dot_clock_mhz, machine_.shading.dot_table_output_bits),
-                                                        engine("diffuse loader", machine_.loader.diffuse_clock_mhz, machine_.shading.level_bits),
-                                                        engine("specular loader", machine_.loader.specular_clock_mhz, machine_.shading.level_bits)});
+      "table_loader", shader_, machine_.loader, used_materials(scene_, machine_.loader.materials),
+      timing_.clock.picoseconds(timing_.vertical_retrace), video_timing_->swapped,
+      std::array<shading::TableLoaderModule::Engine, 3>{
+          engine("dot product loader", machine_.loader.dot_clock_mhz, machine_.shading.dot_table_output_bits),
+          engine("diffuse loader", machine_.loader.diffuse_clock_mhz, machine_.shading.level_bits),
+          engine("specular loader", machine_.loader.specular_clock_mhz, machine_.shading.level_bits)});
 }
 
 void Imogene::build_video() {
-  const video::FrameAssembly::Format format{static_cast<std::size_t>(machine_.video.columns), static_cast<std::size_t>(machine_.video.lines),
-                                            static_cast<unsigned>(machine_.object_processor.normal_bits), depth_of_nothing(machine_), true};
+  const video::FrameAssembly::Format format{
+      static_cast<std::size_t>(machine_.video.columns), static_cast<std::size_t>(machine_.video.lines),
+      static_cast<unsigned>(machine_.object_processor.normal_bits), depth_of_nothing(machine_), true};
   video_output_ = std::make_unique<video::VideoOutputModule>(
-      "video_output", format, [this](std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps) { show(frame, pixels, last_pixel_ps); });
+      "video_output", format, [this](std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps) {
+        note_shown(frame, pixels, last_pixel_ps);
+      });
 }
 
 void Imogene::bind_hosts() {
@@ -203,7 +263,7 @@ void Imogene::bind_display() {
   shading_module_->out.bind(video_output_->in);
 }
 
-void Imogene::show(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps) {
+void Imogene::note_shown(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps) {
   shown_.frame = frame;
   shown_.updated = video_timing_->updates() != updates_seen_;
   shown_.flops = 0;
@@ -226,10 +286,11 @@ void Imogene::show(std::uint64_t frame, const frame::Frame& pixels, std::uint64_
   const std::uint64_t frame_ps = timing_.clock.picoseconds(timing_.frame * frame);
   shown_.first_pixel_ps = frame_ps + timing_.clock.picoseconds(timing_.first_pixel(0) + pixel_latency_);
   shown_.last_pixel_ps = last_pixel_ps - start_ps() + timing_.clock.picoseconds(Cycles(pixels.columns - 1));
-  if (sink_) sink_(shown_, pixels);
+  pixels_ = &pixels;
 }
 
-// What crossed the links before the first picture is the initial load: bandwidth counts from there. The display's links start with it.
+// What crossed the links before the first picture is the initial load: bandwidth counts from there. The display's links
+// start with it.
 void Imogene::reset_host_links() {
   for (stream::Link* link : host_links_) link->reset();
   for (stream::Link* link : bus_links_) link->reset();
@@ -237,8 +298,16 @@ void Imogene::reset_host_links() {
 }
 
 void Imogene::run() {
-  sc_core::sc_start();
-  stream::rethrow_failure();
+  sc_core::sc_report_handler::set_actions("/OSCI/SystemC", sc_core::SC_INFO,
+                                          sc_core::SC_DO_NOTHING);  // that it was stopped is no news
+  // The video timing pauses after every frame, so that a frame is handed on outside the simulation: its processes have
+  // small stacks, and what the sink throws is the caller's.
+  do {
+    sc_core::sc_start();
+    stream::rethrow_failure();
+    if (pixels_ != nullptr && sink_) sink_(shown_, *pixels_);
+    pixels_ = nullptr;
+  } while (sc_core::sc_get_status() != sc_core::SC_STOPPED);
   end_ps_ = start_ps() + timing_.clock.picoseconds(timing_.frame * options_.frames);
   check_identities();
 }
@@ -251,16 +320,20 @@ void Imogene::check_identities() {
   std::uint64_t kept = 0;
   for (std::size_t k = 0; k < boards_.size(); ++k) {
     const auto& counters = boards_[k].counters();
-    equal("object board", "fragments in = kept + hidden", counters.fragments_in, counters.fragments_kept + counters.fragments_hidden);
-    equal("object board", "words sent = words loaded", computation_units_[k]->words_sent(), board_modules_[k]->words_loaded());
+    equal("object board", "fragments in = kept + hidden", counters.fragments_in,
+          counters.fragments_kept + counters.fragments_hidden);
+    equal("object board", "words sent = words loaded", computation_units_[k]->words_sent(),
+          board_modules_[k]->words_loaded());
     kept += counters.fragments_kept;
   }
   const auto& decided = decision_.counters();
   equal("decision unit", "fragments in = kept by the boards", decided.fragments_in, kept);
-  equal("decision unit", "fragments in = kept + hidden", decided.fragments_in, decided.fragments_kept + decided.fragments_hidden);
+  equal("decision unit", "fragments in = kept + hidden", decided.fragments_in,
+        decided.fragments_kept + decided.fragments_hidden);
   equal("shading processor", "pixels shaded = fragments kept", shader_.counters().pixels, decided.fragments_kept);
   equal("table loader", "words sent = words loaded", table_loader_->words_sent(), shading_module_->words_loaded());
-  equal("video output", "lines shown = lines of all frames", video_output_->lines_shown(), options_.frames * static_cast<std::uint64_t>(machine_.video.lines));
+  equal("video output", "lines shown = lines of all frames", video_output_->lines_shown(),
+        options_.frames * static_cast<std::uint64_t>(machine_.video.lines));
 }
 
 }  // namespace rastertlm::imogene

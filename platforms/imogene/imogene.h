@@ -1,5 +1,5 @@
-// The I.M.O.G.E.N.E. machine put together (004, figures 5.1 and 5.5). Assembly only: cores compute, modules decide when, and this says who is
-// connected to whom.
+// The I.M.O.G.E.N.E. machine put together (004, figures 5.1 and 5.5). Assembly only: cores compute, modules decide
+// when, and this says who is connected to whom.
 #pragma once
 
 #include <cstdint>
@@ -85,7 +85,7 @@ class Imogene {
   void build_video();
   void bind_hosts();
   void bind_display();
-  void show(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps);
+  void note_shown(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps);
   void reset_host_links();
   void check_identities();
   stream::Link& add_link(const std::string& name, unsigned bits, const Clock& clock);
@@ -98,6 +98,7 @@ class Imogene {
   geometry::SnapGrids grids_;
   host::HostCost cost_;
   host::SlotMap slots_;
+  host::ResidentScene resident_;
   host::Animation animation_;
   Cycles decision_latency_;
   Cycles pixel_latency_;
@@ -124,6 +125,7 @@ class Imogene {
   sc_core::sc_signal<bool> tables_ready_{"tables_ready"};
 
   ShownFrame shown_;
+  const frame::Frame* pixels_ = nullptr;  // of shown_, until it has been handed on
   std::uint64_t updates_seen_ = 0;
   std::uint64_t end_ps_ = 0;
 };

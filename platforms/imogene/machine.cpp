@@ -10,10 +10,15 @@
 namespace rastertlm::imogene {
 
 void Machine::declare(parameter::Table& table) {
-  table.integer("schema", schema, {1, 1}, {.unit = "", .description = "Version of the machine file's form.", .moves = "nothing", .exempt = true});
-  table.choice("platform", platform, {"imogene"}, {.unit = "", .description = "Which kind of machine this is.", .moves = "nothing", .exempt = true});
+  table.integer("schema", schema, {1, 1},
+                {.unit = "", .description = "Version of the machine file's form.", .moves = "nothing", .exempt = true});
+  table.choice("platform", platform, {"imogene"},
+               {.unit = "", .description = "Which kind of machine this is.", .moves = "nothing", .exempt = true});
   table.choice("fidelity", fidelity, {"line"},
-               {.unit = "", .description = "One transaction a scan line and link, closed-form spans; the only fidelity so far.", .moves = "nothing", .exempt = true});
+               {.unit = "",
+                .description = "One transaction a scan line and link, closed-form spans; the only fidelity so far.",
+                .moves = "nothing",
+                .exempt = true});
   video.declare(table);
   host.declare(table);
   object_processor.declare(table);
@@ -31,7 +36,8 @@ void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
     const Cycles line_start = object_processor::line_start_cycles(object_processor.slices());
     if (line_start > timing.horizontal_blanking)
       diagnostics.add({file, 0, "video.pixel_clock_ns",
-                       fmt::format("the line start takes {} pixel clocks, and horizontal blanking has {}", line_start.count(), timing.horizontal_blanking.count())});
+                       fmt::format("the line start takes {} pixel clocks, and horizontal blanking has {}",
+                                   line_start.count(), timing.horizontal_blanking.count())});
   } catch (const InputError& error) {
     for (Diagnostic diagnostic : error.diagnostics()) {
       diagnostic.file = file;
@@ -51,11 +57,13 @@ unsigned Machine::material_bits() const {
 geometry::SnapGrids snap_grids(const Machine& machine) {
   const auto columns = static_cast<std::size_t>(machine.video.columns);
   const auto lines = static_cast<std::size_t>(machine.video.lines);
-  const auto grids = geometry::snap_grids(columns, lines, static_cast<int>(machine.object_processor.word_bits), static_cast<int>(machine.object_processor.snap_bits));
+  const auto grids = geometry::snap_grids(columns, lines, static_cast<int>(machine.object_processor.word_bits),
+                                          static_cast<int>(machine.object_processor.snap_bits));
   if (!grids)
-    throw InputError({"", 0, "object_processor.word_bits",
-                      fmt::format("edge words of {} bits wrap on a screen of {} x {} pixels; {} bits would do", machine.object_processor.word_bits, columns, lines,
-                                  geometry::word_bits_needed(columns, lines))});
+    throw InputError(
+        {"", 0, "object_processor.word_bits",
+         fmt::format("edge words of {} bits wrap on a screen of {} x {} pixels; {} bits would do",
+                     machine.object_processor.word_bits, columns, lines, geometry::word_bits_needed(columns, lines))});
   return *grids;
 }
 

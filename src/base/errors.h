@@ -1,5 +1,5 @@
-// How the program fails. An input error lists everything that is wrong with the input at once; a model error names the unit and
-// the cycle at which a rule of the model was broken; an output error says what could not be written.
+// How the program fails. An input error lists everything that is wrong with the input at once; a model error names the
+// unit and the cycle at which a rule of the model was broken; an output error says what could not be written.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,9 @@
 namespace rastertlm {
 
 // The low `bits` bits set; bits in 0..64.
-constexpr std::uint64_t low_mask(unsigned bits) { return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1; }
+constexpr std::uint64_t low_mask(unsigned bits) {
+  return bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+}
 
 // `value` modulo 2^bits, as an unsigned word of 1..64 bits.
 constexpr std::uint64_t wrap_unsigned(std::int64_t value, unsigned bits) {

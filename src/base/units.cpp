@@ -26,9 +26,13 @@ Clock Clock::from_period_ns(std::string name, double ns) {
   return Clock(std::move(name), femtoseconds, kFemtosecondsPerPicosecond);
 }
 
-double Clock::period_ns() const { return static_cast<double>(numerator_ps_) / (1e3 * static_cast<double>(denominator_)); }
+double Clock::period_ns() const {
+  return static_cast<double>(numerator_ps_) / (1e3 * static_cast<double>(denominator_));
+}
 
-double Clock::frequency_hz() const { return 1e12 * static_cast<double>(denominator_) / static_cast<double>(numerator_ps_); }
+double Clock::frequency_hz() const {
+  return 1e12 * static_cast<double>(denominator_) / static_cast<double>(numerator_ps_);
+}
 
 std::uint64_t Clock::picoseconds(Cycles n) const {
   const Wide product = static_cast<Wide>(n.count()) * numerator_ps_;

@@ -11,12 +11,12 @@ namespace rastertlm::frame {
 struct Frame {
   std::size_t columns = 0;
   std::size_t lines = 0;
-  std::vector<std::uint8_t> rgb;         // 3 a pixel, levels 0..255
-  std::vector<std::uint32_t> depth;      // depth word; background holds the largest
-  std::vector<float> normal;             // 3 a pixel, eye space, unit length; 0 where nothing is seen
-  std::vector<std::uint32_t> object;     // 0 background, objects count from 1
-  std::vector<std::uint32_t> material;   // index of the material, 0 where nothing is seen
-  std::vector<std::uint32_t> coverage;   // how many objects cover the pixel
+  std::vector<std::uint8_t> rgb;        // 3 a pixel, levels 0..255
+  std::vector<std::uint32_t> depth;     // depth word; background holds the largest
+  std::vector<float> normal;            // 3 a pixel, eye space, unit length; 0 where nothing is seen
+  std::vector<std::uint32_t> object;    // 0 background, objects count from 1
+  std::vector<std::uint32_t> material;  // index of the material, 0 where nothing is seen
+  std::vector<std::uint32_t> coverage;  // how many objects cover the pixel
 
   std::size_t pixels() const { return columns * lines; }
   void resize(std::size_t new_columns, std::size_t new_lines) {
@@ -35,9 +35,9 @@ struct Frame {
 struct ExactFrame {
   std::size_t columns = 0;
   std::size_t lines = 0;
-  std::vector<double> rgb;             // 3 a pixel, 0..255, clamped, not rounded
-  std::vector<std::uint32_t> object;   // 0 background, objects count from 1
-  std::vector<double> depth;           // 0 near .. 1 far; 1 where nothing is seen
+  std::vector<double> rgb;            // 3 a pixel, 0..255, clamped, not rounded
+  std::vector<std::uint32_t> object;  // 0 background, objects count from 1
+  std::vector<double> depth;          // 0 near .. 1 far; 1 where nothing is seen
   std::vector<std::uint32_t> coverage;
 
   std::size_t pixels() const { return columns * lines; }

@@ -1,4 +1,5 @@
-// One scan line as it crosses a link, in plain memory: structure of arrays, so that the vector units see contiguous words.
+// One scan line as it crosses a link, in plain memory: structure of arrays, so that the vector units see contiguous
+// words.
 #pragma once
 
 #include <algorithm>
@@ -8,16 +9,17 @@
 
 namespace rastertlm::frame {
 
-// Pixels [begin, end) may hold something; outside lies background, and its words are not kept up to date: who reads a line looks at the
-// covered interval only. Inside, `object` 0 marks a pixel that nothing covers; its other words then mean nothing but for depth, which is
-// `background_depth`.
+// Pixels [begin, end) may hold something; outside lies background, and its words are not kept up to date: who reads a
+// line looks at the covered interval only. Inside, `object` 0 marks a pixel that nothing covers; its other words then
+// mean nothing but for depth, which is `background_depth`.
 struct FragmentLine {
-  std::vector<std::uint32_t> depth;     // unsigned, smaller is nearer; all ones of the depth word is "nothing"
-  std::vector<std::uint16_t> normal_x;  // words of normal_bits as they cross the link: sign bit above a one's complement magnitude
+  std::vector<std::uint32_t> depth;  // unsigned, smaller is nearer; all ones of the depth word is "nothing"
+  std::vector<std::uint16_t>
+      normal_x;  // words of normal_bits as they cross the link: sign bit above a one's complement magnitude
   std::vector<std::uint16_t> normal_y;
   std::vector<std::uint16_t> normal_z;
   std::vector<std::uint8_t> material;
-  std::vector<std::uint32_t> object;   // observer: number of the object that is seen, from 1; 0 is the background
+  std::vector<std::uint32_t> object;    // observer: number of the object that is seen, from 1; 0 is the background
   std::vector<std::uint16_t> coverage;  // observer: how many objects cover the pixel
   std::size_t begin = 0;
   std::size_t end = 0;

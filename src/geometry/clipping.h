@@ -1,7 +1,8 @@
-// Clipping of triangles in clip space against the near and far planes and a guard band around the screen (Sutherland and Hodgman).
+// Clipping of triangles in clip space against the near and far planes and a guard band around the screen (Sutherland
+// and Hodgman).
 //
-// Two triangles that share an edge get bit-identical vertices on it: an intersection is computed with the edge's end points in a
-// canonical order, so that it does not depend on which way round the edge is walked.
+// Two triangles that share an edge get bit-identical vertices on it: an intersection is computed with the edge's end
+// points in a canonical order, so that it does not depend on which way round the edge is walked.
 #pragma once
 
 #include <array>
@@ -33,12 +34,18 @@ struct Polygon {
 template <class T>
 T plane_distance(const Vector4<T>& p, int plane, const ClipVolume& volume) {
   switch (plane) {
-    case 0: return p.z;
-    case 1: return p.w - p.z;
-    case 2: return p.x - T(volume.left) * p.w;
-    case 3: return T(volume.right) * p.w - p.x;
-    case 4: return T(volume.top) * p.w - p.y;
-    default: return p.y - T(volume.bottom) * p.w;
+    case 0:
+      return p.z;
+    case 1:
+      return p.w - p.z;
+    case 2:
+      return p.x - T(volume.left) * p.w;
+    case 3:
+      return T(volume.right) * p.w - p.x;
+    case 4:
+      return T(volume.top) * p.w - p.y;
+    default:
+      return p.y - T(volume.bottom) * p.w;
   }
 }
 

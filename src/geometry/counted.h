@@ -1,5 +1,5 @@
-// Counted<T> computes as T and counts what it does: the modelled host runs the geometry code with it, so that the operations charged to
-// a transputer are those of the code that computed the coefficients.
+// Counted<T> computes as T and counts what it does: the modelled host runs the geometry code with it, so that the
+// operations charged to a transputer are those of the code that computed the coefficients.
 #pragma once
 
 #include <cmath>
@@ -61,10 +61,11 @@ template <class T>
 class Counted {
  public:
   Counted() = default;
-  constexpr Counted(T value) : value_(value) {}  // NOLINT(google-explicit-constructor): constants of the formulas cost nothing
+  constexpr Counted(T value)
+      : value_(value) {}  // NOLINT(google-explicit-constructor): constants of the formulas cost nothing
   template <class U>
-    requires(std::is_arithmetic_v<U> && !std::is_same_v<U, T>)
-  constexpr Counted(U value) : value_(static_cast<T>(value)) {}  // NOLINT(google-explicit-constructor)
+  requires(std::is_arithmetic_v<U> && !std::is_same_v<U, T>) constexpr Counted(U value)
+      : value_(static_cast<T>(value)) {}  // NOLINT(google-explicit-constructor)
   constexpr T value() const { return value_; }
 
   Counted& operator+=(Counted o) { return *this = *this + o; }

@@ -58,8 +58,8 @@ T integer_power(T base, int exponent) {
   return result;
 }
 
-// Light leaving a point towards the viewer, a channel; 1 is full scale, not clamped. `normal` and `viewer` are unit (or zero: then only
-// ambient light is left), `position` is used by lights at a point.
+// Light leaving a point towards the viewer, a channel; 1 is full scale, not clamped. `normal` and `viewer` are unit (or
+// zero: then only ambient light is left), `position` is used by lights at a point.
 template <class T>
 Vector3<T> illumination(const Reflectance& surface, std::span<const LightSource> lights, const LightingRules& rules,
                         const Vector3<T>& normal, const Vector3<T>& viewer, const Vector3<T>& position) {
@@ -74,7 +74,8 @@ Vector3<T> illumination(const Reflectance& surface, std::span<const LightSource>
       highlight = dot(normal, normalised<T>(towards + viewer));
     } else {
       const T twice = T(2.0) * cosine;
-      const Vector3<T> reflected{twice * normal.x - towards.x, twice * normal.y - towards.y, twice * normal.z - towards.z};
+      const Vector3<T> reflected{twice * normal.x - towards.x, twice * normal.y - towards.y,
+                                 twice * normal.z - towards.z};
       const bool has_normal = dot(normal, normal) > T(0.0);
       highlight = has_normal ? dot(reflected, viewer) : T(0.0);
     }

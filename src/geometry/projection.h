@@ -23,7 +23,8 @@ struct ClipVertex {
   Vector3<T> normal{};
 };
 
-// A corner on the screen: pixels from the top left (the sample of pixel (i, j) is at (i, j)), z 0 near .. 1 far, linear on the screen.
+// A corner on the screen: pixels from the top left (the sample of pixel (i, j) is at (i, j)), z 0 near .. 1 far, linear
+// on the screen.
 template <class T>
 struct ScreenVertex {
   T x{};
@@ -59,7 +60,8 @@ ScreenVertex<T> to_screen(const ClipVertex<T>& vertex, const Viewport& viewport)
   const double half_lines = static_cast<double>(viewport.lines) / 2;
   const T inverse_w = T(1.0) / vertex.position.w;
   return {vertex.position.x * inverse_w * T(half_columns) + T(half_columns - 0.5),
-          T(half_lines - 0.5) - vertex.position.y * inverse_w * T(half_lines), vertex.position.z * inverse_w, inverse_w, vertex.normal};
+          T(half_lines - 0.5) - vertex.position.y * inverse_w * T(half_lines), vertex.position.z * inverse_w, inverse_w,
+          vertex.normal};
 }
 
 }  // namespace rastertlm::geometry

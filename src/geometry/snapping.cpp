@@ -5,7 +5,8 @@
 namespace rastertlm::geometry {
 namespace {
 
-// Finer grids bring nothing: clip-space coordinates in double are the limit of the host, and words of the model stay small.
+// Finer grids bring nothing: clip-space coordinates in double are the limit of the host, and words of the model stay
+// small.
 constexpr int kFinestFractionBits = 12;
 
 // Largest q with box_w * box_h * 2^q <= 2^(word_bits-1) - 2 (one unit is left for the rounding of C), or -1.
@@ -44,13 +45,15 @@ int word_bits_needed(std::size_t columns, std::size_t lines) {
 }
 
 ClipVolume clip_volume(const SnapGrid& grid, const Viewport& viewport) {
-  const auto ndc = [](double pixel, std::size_t count) { return (pixel + 0.5) * 2.0 / static_cast<double>(count) - 1.0; };
+  const auto ndc = [](double pixel, std::size_t count) {
+    return (pixel + 0.5) * 2.0 / static_cast<double>(count) - 1.0;
+  };
   const auto columns = static_cast<double>(viewport.columns);
   const auto lines = static_cast<double>(viewport.lines);
   const auto guard_x = static_cast<double>(grid.guard_x);
   const auto guard_y = static_cast<double>(grid.guard_y);
-  return {ndc(-guard_x, viewport.columns), ndc(columns - 1 + guard_x, viewport.columns), -ndc(lines - 1 + guard_y, viewport.lines),
-          -ndc(-guard_y, viewport.lines)};
+  return {ndc(-guard_x, viewport.columns), ndc(columns - 1 + guard_x, viewport.columns),
+          -ndc(lines - 1 + guard_y, viewport.lines), -ndc(-guard_y, viewport.lines)};
 }
 
 }  // namespace rastertlm::geometry

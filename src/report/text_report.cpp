@@ -144,6 +144,7 @@ std::string pictures_section(const run::Result& result) {
   };
   add("made", result.modelled.objects_made, "triangles");
   add("drawn", f.drawn, "triangles");
+  add("face the viewer", f.facing, "triangles");
   add("face away", f.back_faces, "triangles");
   add("of zero area", f.degenerate, "triangles");
   add("outside the view", f.outside, "triangles");

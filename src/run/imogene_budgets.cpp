@@ -15,7 +15,8 @@ using imogene::Imogene;
 
 double as_real(Cycles cycles) { return static_cast<double>(cycles.count()); }
 
-Budget budget(const std::string& name, double used, double available, const std::string& unit, const std::string& source, bool applies = true) {
+Budget budget(const std::string& name, double used, double available, const std::string& unit,
+              const std::string& source, bool applies = true) {
   return {name, used, available, unit, used <= available, applies, source};
 }
 
@@ -24,32 +25,47 @@ void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
   const video::Timing& timing = platform.timing();
   const unsigned slices = machine.object_processor.slices();
   const double retrace = as_real(timing.vertical_retrace);
-  budgets.push_back(budget("line_start", as_real(object_processor::line_start_cycles(slices)), as_real(timing.horizontal_blanking), "cycles",
-                           fmt::format("2 x {} slices + 5 (004, section 5.2.2); horizontal blanking of {} - {} pixel clocks", slices, timing.line.count(), machine.video.columns)));
-  budgets.push_back(budget("frame_start", as_real(object_processor::frame_start_cycles()), retrace, "cycles", "the copy's 8 steps (004, section 5.2.2); vertical retrace"));
-  const Cycles skew = decision_unit::skew(machine.decision_unit.topology, machine.processors(), Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)));
+  budgets.push_back(budget(
+      "line_start", as_real(object_processor::line_start_cycles(slices)), as_real(timing.horizontal_blanking), "cycles",
+      fmt::format("2 x {} slices + 5 (004, section 5.2.2); horizontal blanking of {} - {} pixel clocks", slices,
+                  timing.line.count(), machine.video.columns)));
+  budgets.push_back(budget("frame_start", as_real(object_processor::frame_start_cycles()), retrace, "cycles",
+                           "the copy's 8 steps (004, section 5.2.2); vertical retrace"));
+  const Cycles skew =
+      decision_unit::skew(machine.decision_unit.topology, machine.processors(),
+                          Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)));
   budgets.push_back(budget("pipeline_skew", as_real(skew + object_processor::frame_start_cycles()), retrace, "cycles",
-                           "the last processor works later than the first by one comparator each (0 in a tree), then copies; vertical retrace"));
+                           "the last processor works later than the first by one comparator each (0 in a tree), then "
+                           "copies; vertical retrace"));
   const double period = timing.clock.period_ns();
-  budgets.push_back(budget("adder_delay", machine.object_processor.adder_delay_ns(), period, "ns",
-                           fmt::format("{} + {} a bit x {} bits; the pixel clock's period ({} slices of the {}-bit word would fit)", machine.object_processor.adder_ns,
-                                       machine.object_processor.adder_ns_per_bit, machine.object_processor.slice_bits,
-                                       machine.object_processor.slices_that_fit(period), machine.object_processor.word_bits)));
+  budgets.push_back(
+      budget("adder_delay", machine.object_processor.adder_delay_ns(), period, "ns",
+             fmt::format("{} + {} a bit x {} bits; the pixel clock's period ({} slices of the {}-bit word would fit)",
+                         machine.object_processor.adder_ns, machine.object_processor.adder_ns_per_bit,
+                         machine.object_processor.slice_bits, machine.object_processor.slices_that_fit(period),
+                         machine.object_processor.word_bits)));
 }
 
 void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
   const HostLoad load = host_load(platform);
   const bool moves = platform.animation().moves();
-  const std::string which = fmt::format("computation unit {}, the slowest{}", load.unit, load.steady ? "" : ", when everything is new");
-  budgets.push_back(budget("host.update", as_real(load.update.cycles), as_real(load.frame), "cycles",
-                           which + ": links, arithmetic, waiting for the frame's grid, and bus; host cycles of a video frame", moves));
-  budgets.push_back(budget("host.flops", static_cast<double>(load.update.flops), platform.machine().host.sustained_mflops * 1e6 * platform.timing().clock.seconds(platform.timing().frame),
-                           "flop", which + ": operations counted in the code that computes; sustained rate x video frame", moves));
-  budgets.push_back(budget("host.bus", as_real(load.update.writing), as_real(load.frame), "cycles",
-                           fmt::format("{}: {} words x {} cycles", which, load.update.words, platform.machine().host.bus_cycles_per_word), moves));
+  const std::string which =
+      fmt::format("computation unit {}, the slowest{}", load.unit, load.steady ? "" : ", when everything is new");
+  budgets.push_back(budget(
+      "host.update", as_real(load.update.cycles), as_real(load.frame), "cycles",
+      which + ": links, arithmetic, waiting for the frame's grid, and bus; host cycles of a video frame", moves));
+  budgets.push_back(
+      budget("host.flops", static_cast<double>(load.update.flops),
+             platform.machine().host.sustained_mflops * 1e6 * platform.timing().clock.seconds(platform.timing().frame),
+             "flop", which + ": operations counted in the code that computes; sustained rate x video frame", moves));
+  budgets.push_back(budget(
+      "host.bus", as_real(load.update.writing), as_real(load.frame), "cycles",
+      fmt::format("{}: {} words x {} cycles", which, load.update.words, platform.machine().host.bus_cycles_per_word),
+      moves));
   std::uint64_t used = 0;
   for (const auto& owners : platform.slots().boards) used += owners.size();
-  budgets.push_back(budget("processors", static_cast<double>(used + platform.slots().dropped), static_cast<double>(platform.machine().processors()), "processors",
+  budgets.push_back(budget("processors", static_cast<double>(used + platform.slots().dropped),
+                           static_cast<double>(platform.machine().processors()), "processors",
                            "one an object (triangle) of the scene; units x processors a unit"));
 }
 
@@ -59,7 +75,8 @@ void add_table_budgets(Imogene& platform, std::vector<Budget>& budgets) {
   const double retrace_us = machine.video.vertical_retrace_us;
   const double frame_us = platform.timing().clock.seconds(platform.timing().frame) * 1e6;
   const double own_us = machine.loader.when == shading::LoadTime::retrace ? retrace_us : frame_us;
-  const std::vector<shading::LoadBudget> loads = shading::load_budgets(machine.shading, machine.loader, machine.shading.materials);
+  const std::vector<shading::LoadBudget> loads =
+      shading::load_budgets(machine.shading, machine.loader, machine.shading.materials);
   const auto seconds_of = [&](const std::string& table) {
     for (const auto& load : loads)
       if (load.name == table + (sequencer ? ".load_sequencer" : ".load_68000")) return load.used;
@@ -69,20 +86,23 @@ void add_table_budgets(Imogene& platform, std::vector<Budget>& budgets) {
     const std::string table = load.name.substr(0, load.name.find('.'));
     if (load.unit == "words") {
       const double in_time = load.used * own_us / seconds_of(table);
-      budgets.push_back(budget(load.name, load.used, std::floor(in_time), load.unit, load.source + "; words that this machine's loader writes in its time", false));
+      budgets.push_back(budget(load.name, load.used, std::floor(in_time), load.unit,
+                               load.source + "; words that this machine's loader writes in its time", false));
     } else if (load.unit == "us") {
       // The paper sets the sequencer against the retrace and the 68000s against the frame.
       const bool by_sequencer = load.name.ends_with("_sequencer");
       const double available = by_sequencer ? retrace_us : frame_us;
-      budgets.push_back(budget(load.name, load.used, available, load.unit, load.source + (by_sequencer ? "; vertical retrace" : "; video frame"), false));
+      budgets.push_back(budget(load.name, load.used, available, load.unit,
+                               load.source + (by_sequencer ? "; vertical retrace" : "; video frame"), false));
     } else {
       budgets.push_back(budget(load.name, load.used, load.used, load.unit, load.source, false));
     }
   }
   const double update_us = platform.table_loader().longest_load_seconds() * 1e6;
   budgets.push_back(budget("tables.update", update_us, own_us, "us",
-                           machine.loader.when == shading::LoadTime::retrace ? "what a frame of this run loads, slowest loader; vertical retrace"
-                                                                             : "what a frame of this run loads into the other bank, slowest loader; video frame",
+                           machine.loader.when == shading::LoadTime::retrace
+                               ? "what a frame of this run loads, slowest loader; vertical retrace"
+                               : "what a frame of this run loads into the other bank, slowest loader; video frame",
                            update_us > 0.0));
 }
 
@@ -97,7 +117,8 @@ std::uint64_t HostLoad::frames() const { return (update.cycles.count() + frame.c
 HostLoad host_load(Imogene& platform) {
   HostLoad load;
   load.frame = Cycles(platform.cost().clock().cycles_at(platform.timing().clock.picoseconds(platform.timing().frame)));
-  for (const auto& unit : platform.computation_units()) load.steady = load.steady || (unit->updates().size() > 1 && platform.animation().moves());
+  for (const auto& unit : platform.computation_units())
+    load.steady = load.steady || (unit->updates().size() > 1 && platform.animation().moves());
   for (std::size_t k = 0; k < platform.computation_units().size(); ++k) {
     const auto& updates = platform.computation_units()[k]->updates();
     for (std::size_t i = load.steady ? 1 : 0; i < updates.size(); ++i)
@@ -135,16 +156,22 @@ Answer imogene_answer(Imogene& platform, const std::vector<Budget>& budgets) {
   answer.latency_frames = update_frames;
   answer.initial_load_frames = platform.frames_before_first();
 
-  const std::uint64_t line_cycles = object_processor::line_start_cycles(machine.object_processor.slices()).count() + static_cast<std::uint64_t>(machine.video.columns);
-  const std::uint64_t board_cycles = object_processor::frame_start_cycles().count() + line_cycles * static_cast<std::uint64_t>(machine.video.lines);
-  take(answer.bottleneck, "object boards", "pixel clocks of a frame", static_cast<double>(board_cycles) / as_real(timing.frame));
-  if (moves) take(answer.bottleneck, fmt::format("computation unit {}", host.unit), "host cycles of a frame", as_real(host.update.cycles) / as_real(host.frame));
+  const std::uint64_t line_cycles = object_processor::line_start_cycles(machine.object_processor.slices()).count() +
+                                    static_cast<std::uint64_t>(machine.video.columns);
+  const std::uint64_t board_cycles =
+      object_processor::frame_start_cycles().count() + line_cycles * static_cast<std::uint64_t>(machine.video.lines);
+  take(answer.bottleneck, "object boards", "pixel clocks of a frame",
+       static_cast<double>(board_cycles) / as_real(timing.frame));
+  if (moves)
+    take(answer.bottleneck, fmt::format("computation unit {}", host.unit), "host cycles of a frame",
+         as_real(host.update.cycles) / as_real(host.frame));
   take(answer.bottleneck, "table loader", "time of a frame", load_seconds / frame_seconds);
   answer.headroom = answer.display_rate_hz / answer.bottleneck.utilisation / answer.required_rate_hz - 1.0;
 
   if (update_frames > 1)
-    answer.limits.push_back(fmt::format("the {} takes {} video frames for an update: the picture changes {:.6g} times a second", answer.bottleneck.unit, update_frames,
-                                        answer.update_rate_hz));
+    answer.limits.push_back(
+        fmt::format("the {} takes {} video frames for an update: the picture changes {:.6g} times a second",
+                    answer.bottleneck.unit, update_frames, answer.update_rate_hz));
   for (const Budget& b : budgets)
     if (b.applies && !b.fits && b.name != "host.update" && b.name != "host.flops" && b.name != "tables.update")
       answer.limits.push_back(fmt::format("{} needs {:.6g} {} and has {:.6g}", b.name, b.used, b.unit, b.available));

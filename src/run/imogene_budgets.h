@@ -12,8 +12,8 @@ namespace rastertlm::run {
 struct HostLoad {
   std::size_t unit = 0;
   host::ComputationUnitModule::Update update;
-  bool steady = false;     // measured on an update after the first picture; else on the first, in which everything is new
-  Cycles frame;            // host cycles of one video frame
+  bool steady = false;  // measured on an update after the first picture; else on the first, in which everything is new
+  Cycles frame;         // host cycles of one video frame
   std::uint64_t frames() const;  // video frames that the update takes
 };
 HostLoad host_load(imogene::Imogene& platform);

@@ -12,7 +12,8 @@ using imogene::Imogene;
 
 UnitFigures figures(const std::string& name, const Clock& clock, const stream::Occupancy& occupancy) {
   occupancy.check(name);
-  return {name, clock.frequency_hz(), occupancy.cycles, occupancy.busy, occupancy.starved, occupancy.blocked, occupancy.idle};
+  return {name,          clock.frequency_hz(), occupancy.cycles, occupancy.busy, occupancy.starved, occupancy.blocked,
+          occupancy.idle};
 }
 
 // A unit of the display side works in step with the pixel clock: it is busy or idle, and never waits.
@@ -22,7 +23,9 @@ UnitFigures display_unit(const std::string& name, const Imogene& platform, std::
 }
 
 std::uint64_t lines_of(const Imogene& platform) { return static_cast<std::uint64_t>(platform.machine().video.lines); }
-std::uint64_t columns_of(const Imogene& platform) { return static_cast<std::uint64_t>(platform.machine().video.columns); }
+std::uint64_t columns_of(const Imogene& platform) {
+  return static_cast<std::uint64_t>(platform.machine().video.columns);
+}
 
 }  // namespace
 
@@ -31,19 +34,24 @@ std::vector<UnitFigures> unit_figures(Imogene& platform) {
   const std::uint64_t end = platform.end_ps();
   units.push_back(figures("animation unit", platform.cost().clock(), platform.animation_unit().occupancy(end)));
   for (std::size_t k = 0; k < platform.computation_units().size(); ++k)
-    units.push_back(figures(fmt::format("computation unit {}", k), platform.cost().clock(), platform.computation_units()[k]->occupancy(end)));
-  const std::uint64_t line_start = object_processor::line_start_cycles(platform.machine().object_processor.slices()).count();
+    units.push_back(figures(fmt::format("computation unit {}", k), platform.cost().clock(),
+                            platform.computation_units()[k]->occupancy(end)));
+  const std::uint64_t line_start =
+      object_processor::line_start_cycles(platform.machine().object_processor.slices()).count();
   const std::uint64_t shown = platform.decision_module().lines_sent() / lines_of(platform);
   for (std::size_t k = 0; k < platform.board_modules().size(); ++k) {
     const auto& board = *platform.board_modules()[k];
     units.push_back(display_unit(fmt::format("object board {}", k), platform, shown,
-                                 board.copies() * object_processor::frame_start_cycles().count() + board.lines_sent() * (line_start + columns_of(platform))));
+                                 board.copies() * object_processor::frame_start_cycles().count() +
+                                     board.lines_sent() * (line_start + columns_of(platform))));
   }
   const std::uint64_t pixels = platform.decision_module().lines_sent() * columns_of(platform);
-  for (const char* name : {"decision unit", "shading processor", "video output"}) units.push_back(display_unit(name, platform, shown, pixels));
+  for (const char* name : {"decision unit", "shading processor", "video output"})
+    units.push_back(display_unit(name, platform, shown, pixels));
   const char* const engines[] = {"dot product loader", "diffuse loader", "specular loader"};
   for (std::size_t engine = 0; engine < shading::TableLoaderModule::kEngines; ++engine)
-    units.push_back(figures(engines[engine], platform.table_loader().clock(engine), platform.table_loader().occupancy(engine, end)));
+    units.push_back(figures(engines[engine], platform.table_loader().clock(engine),
+                            platform.table_loader().occupancy(engine, end)));
   return units;
 }
 
@@ -71,10 +79,13 @@ std::vector<Memory> memory_figures(Imogene& platform) {
   memories.push_back({"backup RAMs", processors * object_processor::kElementaryProcessors, 3, word_bits});
   const auto logic = object_processor::triangle_processor_logic(machine.object_processor, machine.material_bits());
   memories.push_back({"object processor registers", processors, 1, logic.register_bits});
-  const decision_unit::LinkWidth width{word_bits, static_cast<std::uint64_t>(machine.object_processor.normal_bits), machine.material_bits()};
-  const auto decision = decision_unit::decision_logic(machine.decision_unit, processors, width, static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
+  const decision_unit::LinkWidth width{word_bits, static_cast<std::uint64_t>(machine.object_processor.normal_bits),
+                                       machine.material_bits()};
+  const auto decision = decision_unit::decision_logic(
+      machine.decision_unit, processors, width, static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
   memories.push_back({"decision unit registers", 1, decision.register_bits, 1});
-  for (const shading::MemorySize& memory : platform.shader().memories()) memories.push_back({memory.name, memory.instances, memory.words, memory.bits_per_word});
+  for (const shading::MemorySize& memory : platform.shader().memories())
+    memories.push_back({memory.name, memory.instances, memory.words, memory.bits_per_word});
   return memories;
 }
 
@@ -82,9 +93,11 @@ std::vector<Logic> logic_figures(Imogene& platform) {
   const imogene::Machine& machine = platform.machine();
   const std::uint64_t processors = machine.processors();
   const auto logic = object_processor::triangle_processor_logic(machine.object_processor, machine.material_bits());
-  const decision_unit::LinkWidth width{static_cast<std::uint64_t>(machine.object_processor.word_bits), static_cast<std::uint64_t>(machine.object_processor.normal_bits),
+  const decision_unit::LinkWidth width{static_cast<std::uint64_t>(machine.object_processor.word_bits),
+                                       static_cast<std::uint64_t>(machine.object_processor.normal_bits),
                                        machine.material_bits()};
-  const auto decision = decision_unit::decision_logic(machine.decision_unit, processors, width, static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
+  const auto decision = decision_unit::decision_logic(
+      machine.decision_unit, processors, width, static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
   std::vector<Logic> figures;
   figures.push_back({"object processors: adder slices", processors * logic.adders, "adders"});
   figures.push_back({"object processors: adder width", processors * logic.adder_bits, "bits"});
@@ -96,7 +109,8 @@ std::vector<Logic> logic_figures(Imogene& platform) {
   figures.push_back({"decision tree node: link pins", decision.node_pins, "pins"});
   figures.push_back({"decision unit: latency", platform.decision_latency().count(), "pixel clocks"});
   figures.push_back({"pixel to level: latency", platform.pixel_latency().count(), "pixel clocks"});
-  for (const shading::LogicSize& size : platform.shader().logic()) figures.push_back({"shading: " + size.name, size.instances, fmt::format("of {} bits", size.bits)});
+  for (const shading::LogicSize& size : platform.shader().logic())
+    figures.push_back({"shading: " + size.name, size.instances, fmt::format("of {} bits", size.bits)});
   return figures;
 }
 
@@ -107,10 +121,11 @@ Modelled modelled_figures(Imogene& platform, const scene::Scene& scene, bool mod
   m.objects_made = scene.triangle_count();
   for (const scene::Object& object : scene.objects) m.objects_degenerate += object.mesh.degenerate;
   m.objects_dropped = platform.slots().dropped;
-  for (const auto& unit : platform.computation_units()) {
-    m.coefficients_sent += unit->words_sent();
+  for (std::size_t k = 0; k < platform.computation_units().size(); ++k) {
+    const auto& unit = *platform.computation_units()[k];
+    m.coefficients_sent += unit.words_sent();
+    m.coefficients_total += platform.slots().boards[k].size() * object_processor::kWords * unit.updates().size();
   }
-  m.coefficients_total = m.processors_used * object_processor::kWords * platform.updates();
   for (const auto& board : platform.boards()) {
     m.processors_instantiated += model_everything ? board.processors() : board.slots_in_use();
     m.lines_evaluated += board.counters().lines_evaluated;
@@ -120,9 +135,10 @@ Modelled modelled_figures(Imogene& platform, const scene::Scene& scene, bool mod
   m.fragments_kept = platform.decision().counters().fragments_kept;
   m.fragments_hidden = m.fragments_in - m.fragments_kept;
   if (!model_everything) {
-    m.left_out.push_back(fmt::format("{} of {} object processors show nothing and are not evaluated", m.processors_available - m.processors_instantiated,
-                                     m.processors_available));
-    m.left_out.push_back(fmt::format("{} of {} lines of boards hold nothing and are not evaluated", m.lines_total - m.lines_evaluated, m.lines_total));
+    m.left_out.push_back(fmt::format("{} of {} object processors show nothing and are not evaluated",
+                                     m.processors_available - m.processors_instantiated, m.processors_available));
+    m.left_out.push_back(fmt::format("{} of {} lines of boards hold nothing and are not evaluated",
+                                     m.lines_total - m.lines_evaluated, m.lines_total));
   }
   return m;
 }

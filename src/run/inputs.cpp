@@ -17,7 +17,8 @@ constexpr std::int64_t kSchema = 1;
 
 std::string first_key(const std::string& path) { return path.substr(0, path.find_first_of(".[")); }
 
-// The first keys of everything that a scene file may hold. --set gives a path of either file; where both might have it, the machine does.
+// The first keys of everything that a scene file may hold. --set gives a path of either file; where both might have it,
+// the machine does.
 bool names_scene(const std::string& path) {
   scene::SceneDescription description;
   const parameter::Table table = parameter::view(description);
@@ -39,7 +40,8 @@ void gather(Diagnostics& diagnostics, const Read& read) {
   }
 }
 
-void read_machine(const std::string& file, const std::vector<config::Override>& overrides, Inputs::Content& content, Diagnostics& diagnostics) {
+void read_machine(const std::string& file, const std::vector<config::Override>& overrides, Inputs::Content& content,
+                  Diagnostics& diagnostics) {
   const config::Document document = config::Document::from_file(file);
   const bool schema = config::check_schema(document, kSchema, diagnostics);
   const bool platform = config::choose_platform(document, overrides, {"imogene"}, diagnostics).has_value();
@@ -51,7 +53,8 @@ void read_machine(const std::string& file, const std::vector<config::Override>& 
   for (const Diagnostic& diagnostic : found.list()) diagnostics.add(diagnostic);
 }
 
-void read_scene(const std::string& file, const std::vector<config::Override>& overrides, Inputs::Content& content, Diagnostics& diagnostics) {
+void read_scene(const std::string& file, const std::vector<config::Override>& overrides, Inputs::Content& content,
+                Diagnostics& diagnostics) {
   const config::Document document = config::Document::from_file(file);
   if (!config::check_schema(document, kSchema, diagnostics)) return;
   parameter::Table table = parameter::view(content.description);
@@ -69,7 +72,8 @@ Inputs::Inputs(Inputs&&) noexcept = default;
 Inputs& Inputs::operator=(Inputs&&) noexcept = default;
 Inputs::~Inputs() = default;
 
-Inputs read_inputs(const std::string& machine_file, const std::string& scene_file, const std::vector<std::string>& overrides) {
+Inputs read_inputs(const std::string& machine_file, const std::string& scene_file,
+                   const std::vector<std::string>& overrides) {
   auto content = std::make_unique<Inputs::Content>();
   Diagnostics diagnostics;
   std::vector<config::Override> of_machine;

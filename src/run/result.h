@@ -24,11 +24,11 @@ struct Answer {
   double update_rate_hz = 0.0;    // display rate / frames that the slowest host needs for its coefficients
   double required_rate_hz = 0.0;  // video.refresh_hz
   bool sustained = false;
-  double headroom = 0.0;          // rate that the bottleneck allows / required rate - 1
+  double headroom = 0.0;  // rate that the bottleneck allows / required rate - 1
   Bottleneck bottleneck;
-  std::uint64_t latency_frames = 0;   // from the start of an animation frame to its picture's first line
+  std::uint64_t latency_frames = 0;       // from the start of an animation frame to its picture's first line
   std::uint64_t initial_load_frames = 0;  // video frames before the first picture
-  std::vector<std::string> limits;    // one sentence for everything that keeps the machine from its rate
+  std::vector<std::string> limits;        // one sentence for everything that keeps the machine from its rate
 };
 
 struct UnitFigures {
@@ -45,7 +45,7 @@ struct Budget {
   std::string name;
   double used = 0.0;
   double available = 0.0;
-  std::string unit;     // "cycles", "us", "flop", "bytes", "words", "processors", "ns"
+  std::string unit;  // "cycles", "us", "flop", "bytes", "words", "processors", "ns"
   bool fits = false;
   bool applies = true;  // this machine depends on it; false: stated for comparison
   std::string source;   // formula or paper
@@ -84,31 +84,32 @@ struct Modelled {
   std::uint64_t lines_evaluated = 0;          // on which a board had something to do
   std::uint64_t coefficients_total = 0;       // words that a host which sends all would have written
   std::uint64_t coefficients_sent = 0;
-  std::uint64_t objects_made = 0;             // triangles of the scene
-  std::uint64_t objects_degenerate = 0;       // of zero area as made
-  std::uint64_t objects_dropped = 0;          // found no processor
+  std::uint64_t objects_made = 0;        // triangles of the scene
+  std::uint64_t objects_degenerate = 0;  // of zero area as made
+  std::uint64_t objects_dropped = 0;     // found no processor
   std::uint64_t fragments_in = 0;
   std::uint64_t fragments_kept = 0;
   std::uint64_t fragments_hidden = 0;
-  std::vector<std::string> left_out;          // sentences: what was not simulated because the scene does not need it
+  std::vector<std::string> left_out;  // sentences: what was not simulated because the scene does not need it
 };
 
 // One displayed frame: its figures, not its pixels.
 struct FrameFigures {
   std::uint64_t frame = 0;
-  std::int64_t animation_frame = 0;           // the pose that it shows
-  std::uint64_t first_pixel_ps = 0;           // since the first displayed frame's retrace began
+  std::int64_t animation_frame = 0;  // the pose that it shows
+  std::uint64_t first_pixel_ps = 0;  // since the first displayed frame's retrace began
   std::uint64_t last_pixel_ps = 0;
-  std::uint64_t drawn = 0;                    // triangles that face the viewer and have an area
+  std::uint64_t drawn = 0;   // triangles that have an area: facing + back_faces + outside
+  std::uint64_t facing = 0;  // of them, those that face the viewer and are in view
   std::uint64_t back_faces = 0;
-  std::uint64_t degenerate = 0;               // zero area, as made or after snapping
-  std::uint64_t outside = 0;                  // wholly outside the view volume
-  std::uint64_t pieces = 0;                   // more processors taken by clipping
+  std::uint64_t degenerate = 0;  // zero area, as made or after snapping
+  std::uint64_t outside = 0;     // wholly outside the view volume
+  std::uint64_t pieces = 0;      // more processors taken by clipping
   std::uint64_t pieces_dropped = 0;
   int snap_fraction_bits = 0;
   std::uint64_t covered_pixels = 0;
   std::uint64_t fragments = 0;
-  std::uint64_t host_flops = 0;               // all computation units; 0 where nothing was computed for this frame
+  std::uint64_t host_flops = 0;  // all computation units; 0 where nothing was computed for this frame
   std::uint64_t words_sent = 0;
   std::vector<reference::ErrorFigures> errors;  // empty without reference
 };
@@ -116,7 +117,7 @@ struct FrameFigures {
 // Pixels of a frame, on their way to whoever writes them.
 struct FramePixels {
   const frame::Frame& shown;
-  const frame::ExactFrame* ideal = nullptr;   // null without reference
+  const frame::ExactFrame* ideal = nullptr;  // null without reference
   const FrameFigures& figures;
 };
 using FrameSink = std::function<void(const FramePixels&)>;

@@ -35,7 +35,8 @@ class Exact {
     true_ = picture(pose, reference::Reference::true_model);
   }
   std::vector<reference::ErrorFigures> errors(const frame::Frame& shown) const {
-    return {reference::compare(shown, ideal_, "ideal"), reference::compare(shown, snapped_, "snapped"), reference::compare(shown, true_, "true")};
+    return {reference::compare(shown, ideal_, "ideal"), reference::compare(shown, snapped_, "snapped"),
+            reference::compare(shown, true_, "true")};
   }
   const frame::ExactFrame& ideal() const { return ideal_; }
 
@@ -51,19 +52,22 @@ class Exact {
   frame::ExactFrame true_;
 };
 
-FrameFigures figures_of(const imogene::ShownFrame& shown, const frame::Frame& pixels, const geometry::SnapGrids& grids) {
+FrameFigures figures_of(const imogene::ShownFrame& shown, const frame::Frame& pixels,
+                        const geometry::SnapGrids& grids) {
   FrameFigures f;
   f.frame = shown.frame;
   f.animation_frame = shown.animation_frame;
   f.first_pixel_ps = shown.first_pixel_ps;
   f.last_pixel_ps = shown.last_pixel_ps;
-  f.drawn = shown.triangles.drawn;
+  f.facing = shown.triangles.drawn;
+  f.drawn = shown.triangles.drawn + shown.triangles.back_faces + shown.triangles.outside;
   f.back_faces = shown.triangles.back_faces;
   f.degenerate = shown.triangles.degenerate;
   f.outside = shown.triangles.outside;
   f.pieces = shown.triangles.pieces;
   f.snap_fraction_bits = (shown.guarded ? grids.guarded : grids.on_screen).fraction_bits;
-  f.covered_pixels = static_cast<std::uint64_t>(std::count_if(pixels.object.begin(), pixels.object.end(), [](std::uint32_t object) { return object != 0; }));
+  f.covered_pixels = static_cast<std::uint64_t>(
+      std::count_if(pixels.object.begin(), pixels.object.end(), [](std::uint32_t object) { return object != 0; }));
   for (const std::uint32_t count : pixels.coverage) f.fragments += count;
   f.host_flops = shown.flops;
   f.words_sent = shown.words;
@@ -74,13 +78,16 @@ void add_warnings(const imogene::Imogene& platform, const shading::DeferredShade
   result.warnings = shader.warnings();
   for (const FrameFigures& frame : result.frames)
     if (frame.covered_pixels == 0) {
-      result.warnings.push_back("frame " + std::to_string(frame.frame) + " shows nothing but the background: no triangle of the scene is in view");
+      result.warnings.push_back("frame " + std::to_string(frame.frame) +
+                                " shows nothing but the background: no triangle of the scene is in view");
       break;
     }
   if (platform.slots().dropped > 0)
-    result.warnings.push_back(std::to_string(platform.slots().dropped) + " objects found no processor and are missing from the picture");
+    result.warnings.push_back(std::to_string(platform.slots().dropped) +
+                              " objects found no processor and are missing from the picture");
   if (shader.counters().short_normals > 0)
-    result.warnings.push_back(std::to_string(shader.counters().short_normals) + " pixels had a normal too short for the normaliser and are darker than they should be");
+    result.warnings.push_back(std::to_string(shader.counters().short_normals) +
+                              " pixels had a normal too short for the normaliser and are darker than they should be");
 }
 
 std::uint64_t peak_memory_bytes() {
@@ -112,7 +119,8 @@ Result simulate(const Inputs& inputs, const Options& options, const FrameSink& s
     result.frames.push_back(std::move(figures));
     outside += std::chrono::steady_clock::now() - entered;
   };
-  platform = std::make_unique<imogene::Imogene>(machine, scene, imogene::Options{options.frames, options.model_everything}, show);
+  platform = std::make_unique<imogene::Imogene>(machine, scene,
+                                                imogene::Options{options.frames, options.model_everything}, show);
   platform->run();
 
   result.platform = "imogene";
@@ -135,7 +143,8 @@ Result simulate(const Inputs& inputs, const Options& options, const FrameSink& s
   if (options.host_figures) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start - outside).count();
     result.host.wall_seconds = seconds;
-    result.host.simulated_clocks_per_second = static_cast<double>(options.frames * platform->timing().frame.count()) / seconds;
+    result.host.simulated_clocks_per_second =
+        static_cast<double>(options.frames * platform->timing().frame.count()) / seconds;
     result.host.peak_memory_bytes = peak_memory_bytes();
   }
   return result;

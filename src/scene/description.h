@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/geometry/pose.h"
 #include "src/parameter/table.h"
 
 namespace rastertlm::scene {
@@ -13,7 +14,7 @@ using parameter::IndexTriple;
 using parameter::Triple;
 
 enum class ProjectionKind { perspective, orthographic };
-enum class LightKind { directional, point };
+using geometry::LightKind;
 enum class ObjectKind { teapot, uv_sphere, mesh, triangles };
 enum class AnimationKind { spin, orbit, keys };
 enum class LightingModel { blinn, phong };

@@ -2,14 +2,14 @@
 // frame. World and eye space are right-handed; the eye looks along -z with y up.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
+#include "src/geometry/mesh.h"
+#include "src/geometry/pose.h"
 #include "src/scene/description.h"
 
 namespace rastertlm::scene {
@@ -23,21 +23,9 @@ struct Material {
   int exponent = 20;      // E
 };
 
-struct Light {
-  LightKind kind = LightKind::directional;
-  glm::dvec3 vector{0, 0, 1};  // directional: unit, from the surface to the light; point: position. World space
-  glm::dvec3 intensity{1.0};
-};
-
-// Triangles that share vertices. Counter-clockwise seen from outside.
-struct Mesh {
-  std::vector<glm::dvec3> positions;
-  std::vector<glm::dvec3> normals;  // one a position, unit length, outwards
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint16_t> material;  // one a triangle, an index of Scene::materials
-  std::size_t degenerate = 0;  // of `triangles`, those whose corners coincide or are in line (they stay in the list)
-  std::size_t left_out = 0;    // points and lines of a mesh file, which are not drawn
-};
+using geometry::Light;  // of a scene: in world space
+using geometry::Mesh;
+using geometry::Pose;
 
 struct Object {
   Mesh mesh;                  // its own space
@@ -60,17 +48,7 @@ struct Scene {
   std::size_t triangle_count() const;
 };
 
-// Everything that can move, at one frame. Angles are computed from the frame number, never summed.
-struct Pose {
-  glm::dmat4 world_to_eye{1.0};
-  glm::dmat4 eye_to_clip{1.0};            // z in 0..w from near to far (GLM's _ZO)
-  std::vector<glm::dmat4> object_to_eye;  // one an object
-  std::vector<glm::dmat3> normal_to_eye;  // one an object: inverse transpose, scaled by one factor an object so that no
-                                          // normal of it gets longer than 1
-  std::vector<Light> lights;              // in eye space
-};
-
-// `columns` / `lines` is the aspect ratio of the view volume.
+// Angles are computed from the frame number, never summed. `columns` / `lines` is the aspect ratio of the view volume.
 Pose pose(const Scene& scene, std::int64_t frame, std::size_t columns, std::size_t lines);
 
 // Whether anything differs between frames: the camera, each object.

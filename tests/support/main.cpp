@@ -1,4 +1,5 @@
-// The test runner's own main: libsystemc exports one too, and with that one no test would run and the exit code would be 0.
+// The test runner's own main: libsystemc exports one too, and with that one no test would run and the exit code would
+// be 0.
 #include <gtest/gtest.h>
 
 #include <cstdio>
