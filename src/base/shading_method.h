@@ -25,13 +25,13 @@ struct ShadingMethodTraits {
   std::string_view lit_at;    // where the illumination equation is evaluated
   bool highlight_test;        // triangles are told apart by a test for highlights
   bool subdivides;            // more triangles are made where there is a highlight
-  std::string_view platform;  // that offers it: "imogene", "quadratic", "adaptive"; "reference": no machine, a picture
-                              // to compare with
-  std::string_view source;    // paper
+  std::string_view platform;  // that offers it, or several: "imogene", "quadratic", "adaptive"; "reference": no
+                              // machine, a picture to compare with
+  std::string_view source;  // paper
 };
 
 inline constexpr std::array<ShadingMethodTraits, 8> kShadingMethods{{
-    {ShadingMethod::gouraud, "gouraud", "colour, linear", "3 vertices", false, false, "quadratic", "000/001"},
+    {ShadingMethod::gouraud, "gouraud", "colour, linear", "3 vertices", false, false, "quadratic, adaptive", "000/001"},
     {ShadingMethod::quadratic, "quadratic", "colour, quadratic", "3 vertices and 3 edge midpoints", false, false,
      "quadratic", "000/001"},
     {ShadingMethod::quadratic_adaptive, "quadratic_adaptive", "colour, quadratic where a highlight is, else linear",
