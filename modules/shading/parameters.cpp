@@ -98,9 +98,6 @@ void LoaderParameters::declare(Table& table) {
   table.choice("loader.when", when, {"frame", "retrace"},
                About{"", "During the previous frame into a second bank, or during vertical retrace.",
                      "memory bits, and when new tables show"});
-  table.choice("loader.on_overrun", on_overrun, {"refuse", "show"},
-               About{"", "A load that outlasts the retrace is refused, or lines are shaded from half-written tables.",
-                     "the picture", Condition{"loader.when", {"retrace"}}});
   table.choice("loader.materials", materials, {"used", "all"},
                About{"", "Load the tables of materials that the scene uses, or of all that the machine has.", time});
   table.integer("loader.argument_cycles", argument_cycles, {0, 1000},

@@ -52,14 +52,12 @@ struct ShadingParameters {
 
 enum class LoaderKind { mc68000, sequencer };
 enum class LoadTime { frame, retrace };
-enum class Overrun { refuse, show };
 enum class LoadedMaterials { used, all };
 
 // Who fills the tables, when, and what a step costs. Costs of the 68000: MC68000 instruction times, zero wait states.
 struct LoaderParameters {
   LoaderKind kind = LoaderKind::mc68000;
   LoadTime when = LoadTime::frame;                    // frame: two banks; retrace: one
-  Overrun on_overrun = Overrun::refuse;               // of a load that does not fit into the retrace
   LoadedMaterials materials = LoadedMaterials::used;  // of those that changed
   std::int64_t argument_cycles = 1;                   // steps to change exponent and Ks, a material (004: "1280")
   double sequencer_clock_ns = 60.0;                   // one step a clock
