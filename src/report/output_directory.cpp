@@ -105,11 +105,26 @@ void remove_stale(const std::string& target) {
   for (const std::string& path : stale) remove_quietly(path);
 }
 
+bool holds_report(const std::string& directory) {
+  const std::optional<std::string> report = read_text_file(directory + '/' + kReportJson);
+  return report && is_report(*report);
+}
+
+// "out", where runs without --out made "out/teapot_imogene": nothing in it but results of ours, which stay.
+bool holds_results_alone(const std::string& directory) {
+  std::error_code error;
+  bool any = false;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+    if (!entry->is_directory(error) || entry->is_symlink(error) || !holds_report(entry->path().string())) return false;
+    any = true;
+  }
+  return any && !error;
+}
+
 void refuse_what_is_not_ours(const std::string& target) {
   if (!exists(target)) return;
   if (!is_directory(target)) throw InputError(Diagnostic{target, 0, "", "is not a directory; nothing was written"});
-  const std::optional<std::string> report = read_text_file(target + '/' + kReportJson);
-  if (!report || !is_report(*report))
+  if (!holds_report(target) && !holds_results_alone(target))
     throw InputError(
         Diagnostic{target, 0, "",
                    fmt::format("exists and holds no {} of rastertlm, so it is not replaced; name another --out, or "

@@ -161,7 +161,8 @@ void visit(Visitor& v, run::FrameFigures& f) {
           f.first_pixel_ps);
   v.value("last_pixel_ps", {"ps", kCount, "last pixel, since the same"}, f.last_pixel_ps);
   v.value("drawn", {"triangles", kCount, "that have an area: facing, back faces and outside"}, f.drawn);
-  v.value("facing", {"triangles", kCount, "of those drawn, that face the viewer (or are two-sided) and are in view"}, f.facing);
+  v.value("facing", {"triangles", kCount, "of those drawn, that face the viewer (or are two-sided) and are in view"},
+          f.facing);
   v.value("back_faces", {"triangles", kCount, "that face away"}, f.back_faces);
   v.value("degenerate", {"triangles", kCount, "of zero area, as made or after snapping"}, f.degenerate);
   v.value("outside", {"triangles", kCount, "wholly outside the view volume"}, f.outside);

@@ -62,6 +62,21 @@ TEST_F(OutputTest, OursIsReplaced) {
   EXPECT_EQ(names("o").count("frame_0001.png"), 0U);
 }
 
+TEST_F(OutputTest, FolderOfResultsTakesAResultAndKeepsThem) {
+  ASSERT_EQ(run(render("out/first")).exit_code, 0);
+  const Outcome outcome = run(render("out"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(names("out").count("report.json"), 1U);
+  EXPECT_EQ(names("out/first").count("report.json"), 1U);
+}
+
+TEST_F(OutputTest, FolderOfResultsAndSomethingElseIsRefused) {
+  ASSERT_EQ(run(render("out/first")).exit_code, 0);
+  write("out/notes.txt", "mine");
+  EXPECT_EQ(run(render("out")).exit_code, 2);
+  EXPECT_EQ(names("out"), (std::set<std::string>{"first", "notes.txt"}));
+}
+
 TEST_F(OutputTest, Unwritable) {
   for (const char* directory : {"/proc/rastertlm", "scene.toml/o"}) {
     const Outcome outcome = run(render(directory));

@@ -88,7 +88,7 @@ TEST(TextReport, GivesTheWorstFrameOfEachErrorFigure) {
   const std::string line = line_with(text, "  ideal  ");
   for (const char* part : {"2 px", "3 px", "4 px", "12 levels", "8 levels", "0.123457 levels", "60 dB", "0.0123457 %"})
     EXPECT_TRUE(holds(line, part)) << part << " in " << line;
-  EXPECT_TRUE(holds(text, "error_*.png: absolute difference from the ideal picture, times 16"));
+  EXPECT_TRUE(holds(text, "error_*.png: absolute difference from the ideal picture, times 32"));
 }
 
 TEST(TextReport, AnInfinitePsnrInOneFrameDoesNotHideAnother) {
