@@ -9,6 +9,7 @@
 #include "src/config/reader.h"
 #include "src/config/writer.h"
 #include "src/parameter/table.h"
+#include "src/run/locate.h"
 
 namespace rastertlm::run {
 namespace {
@@ -50,7 +51,7 @@ void read_machine(const std::string& file, const std::vector<config::Override>& 
   Diagnostics found;
   content.machine_origins = config::read(document, table, overrides, found);
   if (found.empty()) content.machine.check(found, file);
-  for (const Diagnostic& diagnostic : found.list()) diagnostics.add(diagnostic);
+  for (const Diagnostic& diagnostic : found.list()) diagnostics.add(located(diagnostic, content.machine_origins, file));
 }
 
 void read_scene(const std::string& file, const std::vector<config::Override>& overrides, Inputs::Content& content,
@@ -62,7 +63,12 @@ void read_scene(const std::string& file, const std::vector<config::Override>& ov
   content.scene_origins = config::read(document, table, overrides, found);
   for (const Diagnostic& diagnostic : found.list()) diagnostics.add(diagnostic);
   if (!found.empty()) return;
-  content.scene = scene::build_scene(content.description, file, std::filesystem::path(file).parent_path().string());
+  try {
+    content.scene = scene::build_scene(content.description, file, std::filesystem::path(file).parent_path().string());
+  } catch (const InputError& error) {
+    for (const Diagnostic& diagnostic : error.diagnostics())
+      diagnostics.add(located(diagnostic, content.scene_origins, file));
+  }
 }
 
 }  // namespace
@@ -75,6 +81,8 @@ Inputs::~Inputs() = default;
 Inputs read_inputs(const std::string& machine_file, const std::string& scene_file,
                    const std::vector<std::string>& overrides) {
   auto content = std::make_unique<Inputs::Content>();
+  content->machine_file = machine_file;
+  content->scene_file = scene_file;
   Diagnostics diagnostics;
   std::vector<config::Override> of_machine;
   std::vector<config::Override> of_scene;
@@ -84,6 +92,16 @@ Inputs read_inputs(const std::string& machine_file, const std::string& scene_fil
   gather(diagnostics, [&] { read_scene(scene_file, of_scene, *content, diagnostics); });
   diagnostics.throw_if_any();
   return Inputs(std::move(content));
+}
+
+InputError Inputs::Content::located(const InputError& error) const {
+  std::vector<Diagnostic> diagnostics;
+  for (const Diagnostic& diagnostic : error.diagnostics()) {
+    const bool of_scene = names_scene(diagnostic.key);
+    diagnostics.push_back(
+        run::located(diagnostic, of_scene ? scene_origins : machine_origins, of_scene ? scene_file : machine_file));
+  }
+  return InputError(std::move(diagnostics));
 }
 
 std::string resolved_machine_toml(const Inputs& inputs) {

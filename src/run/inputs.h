@@ -4,6 +4,7 @@
 #include <string>
 
 #include "platforms/imogene/machine.h"
+#include "src/base/errors.h"
 #include "src/config/origins.h"
 #include "src/run/simulate.h"
 #include "src/scene/scene.h"
@@ -11,11 +12,16 @@
 namespace rastertlm::run {
 
 struct Inputs::Content {
+  std::string machine_file;
+  std::string scene_file;
   imogene::Machine machine;
   config::Origins machine_origins;
   scene::SceneDescription description;
   config::Origins scene_origins;
   scene::Scene scene;
+
+  // What a machine finds wrong with its own file or with the scene, with file and line.
+  InputError located(const InputError& error) const;
 };
 
 }  // namespace rastertlm::run

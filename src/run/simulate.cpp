@@ -119,9 +119,13 @@ Result simulate(const Inputs& inputs, const Options& options, const FrameSink& s
     result.frames.push_back(std::move(figures));
     outside += std::chrono::steady_clock::now() - entered;
   };
-  platform = std::make_unique<imogene::Imogene>(machine, scene,
-                                                imogene::Options{options.frames, options.model_everything}, show);
-  platform->run();
+  try {
+    platform = std::make_unique<imogene::Imogene>(machine, scene,
+                                                  imogene::Options{options.frames, options.model_everything}, show);
+    platform->run();
+  } catch (const InputError& error) {
+    throw inputs.content->located(error);
+  }
 
   result.platform = "imogene";
   imogene::Machine resolved = machine;
