@@ -9,11 +9,11 @@ void VideoParameters::declare(parameter::Table& table) {
   table.integer(
       "video.lines", lines, {1, 16384},
       {.unit = "lines", .description = "Lines shown in a frame.", .moves = "height of the picture, frame cycles"});
-  table.real("video.refresh_hz", refresh_hz, {0.0, 1000.0, true},
+  table.real("video.refresh_hz", refresh_hz, {kSlowestRefreshHz, 1000.0},
              {.unit = "Hz",
               .description = "Frames that the screen asks for each second.",
               .moves = "answer.required_rate_hz"});
-  table.real("video.pixel_clock_ns", pixel_clock_ns, {0.1, 1e6},
+  table.real("video.pixel_clock_ns", pixel_clock_ns, {kFastestClockNs, 1e6},
              {.unit = "ns",
               .description = "Period of the pixel clock, which all boards share.",
               .moves = "budgets line_start, adder_delay"});

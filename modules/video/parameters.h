@@ -7,6 +7,9 @@
 
 namespace rastertlm::video {
 
+inline constexpr double kFastestClockNs = 0.1;
+inline constexpr double kSlowestRefreshHz = 0.01;  // a frame's clocks stay far below 2^53
+
 struct VideoParameters {
   std::int64_t columns = 512;
   std::int64_t lines = 512;

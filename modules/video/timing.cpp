@@ -2,9 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <string>
+
 #include "src/base/errors.h"
 
 namespace rastertlm::video {
+namespace {
+
+// The slowest pixel clock, to the picosecond, that leaves a clock of blanking on every line however the frame and its
+// retrace are rounded to whole clocks; "" where no clock does.
+std::string slowest_clock(const VideoParameters& parameters) {
+  const double shown_ns = 1e9 / parameters.refresh_hz - 1e3 * parameters.vertical_retrace_us;
+  const double clocks = static_cast<double>(parameters.lines) * static_cast<double>(parameters.columns + 1) + 1.0;
+  const double clock_ns = std::floor(1e3 * shown_ns / clocks) * 1e-3;
+  return clock_ns < kFastestClockNs ? "" : fmt::format("; at most {:.9g} ns would leave some", clock_ns);
+}
+
+}  // namespace
 
 Timing timing(const VideoParameters& parameters) {
   Timing t;
@@ -22,10 +37,8 @@ Timing timing(const VideoParameters& parameters) {
   if (t.line.count() <= columns)
     throw InputError({"", 0, "video.pixel_clock_ns",
                       fmt::format("a pixel clock of {} ns leaves {} clocks for a line of {} pixels, and no horizontal "
-                                  "blanking; at most {:.6g} ns would leave some",
-                                  parameters.pixel_clock_ns, t.line.count(), columns,
-                                  (1e9 / parameters.refresh_hz - 1e3 * parameters.vertical_retrace_us) /
-                                      (static_cast<double>(lines) * static_cast<double>(columns + 1)))});
+                                  "blanking{}",
+                                  parameters.pixel_clock_ns, t.line.count(), columns, slowest_clock(parameters))});
   t.vertical_retrace = t.frame - t.line * lines;
   t.horizontal_blanking = t.line - Cycles(columns);
   return t;
