@@ -77,9 +77,9 @@ constexpr void narrow(const LineWord& word, Interval& span) {
 Interval touched_lines(const std::array<LinearWords, 3>& edges, WordFormat format, std::int32_t columns,
                        std::int32_t lines);
 
-// A line of words with the carry flip-flop on clock2 (numerics: erratum 7): the sums of B never carry; the first step
-// along the line loses every carry and takes what is left over from the sum of B; later steps are right. So the line is
-// linear from column 1 on.
+// A line of words with the carry flip-flop on clock2 (an error of 004's text): the sums of B never carry; the first
+// step along the line loses every carry and takes what is left over from the sum of B; later steps are right. So the
+// line is linear from column 1 on.
 struct LateCarryLine {
   std::uint32_t first = 0;  // the word of column 0
   std::uint32_t start = 0;  // the word of column x >= 1 is start + A x, modulo 2^word_bits

@@ -34,7 +34,7 @@ class DotProduct {
     return centred_ ? 2 * terms + 3 : terms;
   }
   // Negative sums are 0. Above full scale the adder saturates (at the centre of a highlight sums reach 2051.5: a
-  // wrapped index would be a black dot in it; numerics.md 1.4).
+  // wrapped index would be a black dot in it).
   bool saturates(std::int32_t sum) const { return sum > full_scale_; }
   std::uint32_t index(std::int32_t sum) const {
     const std::int32_t positive = sum < 0 ? 0 : sum;

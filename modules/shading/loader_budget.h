@@ -17,8 +17,8 @@ struct LoadBudget {
   std::string source;  // the formula
 };
 
-// The budgets, in the order of design.md section 8, for `materials` materials, each of one loader: loaders run at the
-// same time. argument_cycles as in `loader`.
+// The budgets, in the order in which report.json names them, for `materials` materials, each of one loader: loaders run
+// at the same time. argument_cycles as in `loader`.
 std::vector<LoadBudget> load_budgets(const ShadingParameters& shading, const LoaderParameters& loader,
                                      std::int64_t materials);
 

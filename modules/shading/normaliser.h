@@ -38,8 +38,9 @@ class Normaliser {
 
   // A component's square, so that the sum of three has 2 w + 2 bits. Centred: the word stands for m + 1/2, and (2m+1)^2
   // / 4 floored is m (m+1). Literal: the squarer takes the word in two's complement, so that a negative one, ~m, gives
-  // (m+1)^2; of the readings that the paper leaves open this is the one that reproduces the literal columns of
-  // numerics.md section 5 (with m^2 for both signs, means, percentiles and maxima fall short).
+  // (m+1)^2; of the readings that the paper leaves open this is the one that reproduces the published end-to-end
+  // figures of an independent program (end_to_end_test.cpp; with m^2 for both signs, means, percentiles and maxima fall
+  // short).
   std::uint32_t square(std::uint32_t magnitude, std::uint32_t negative) const {
     const std::uint32_t word = magnitude + (centred_ ? 0 : negative);
     return word * (word + (centred_ ? 1 : 0));

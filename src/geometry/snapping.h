@@ -1,5 +1,5 @@
 // The grid that vertices are snapped to before edges, depth and normals are fitted through them, and the guard band
-// that they are clipped to: both follow from the word width of the edge processors (numerics of the edge equations).
+// that they are clipped to: both follow from the word width of the edge processors.
 //
 // With coefficients A, B in units of 2^-q pixel and vertices and screen in a box of w x h pixels, |E| <= w * h * 2^q:
 // no edge word of `word_bits` wraps on the screen if that stays below 2^(word_bits - 1). The sign bit is then exactly

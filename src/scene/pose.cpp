@@ -15,7 +15,7 @@ namespace {
 
 glm::dvec3 vector(const Triple& t) { return {t[0], t[1], t[2]}; }
 
-// One factor for all normals of the object, so that the longest has length 1 (numerics: normals of an object are scaled
+// One factor for all normals of the object, so that the longest has length 1 (normals of an object are scaled
 // together).
 glm::dmat3 normal_matrix(const glm::dmat4& object_to_eye, const Mesh& mesh) {
   const glm::dmat3 matrix = inverse_transpose(glm::dmat3(object_to_eye));

@@ -21,7 +21,7 @@ ObjectProcessorParameters widths(std::int64_t word, std::int64_t normal) {
   return parameters;
 }
 
-// 2 N + 1, in half units, is odd and never 0: its magnitude is 2 m + 1 for both signs (numerics 1.4). Halving it K
+// 2 N + 1, in half units, is odd and never 0: its magnitude is 2 m + 1 for both signs. Halving it K
 // times must bring all three below 2^normal_bits.
 struct Exact {
   unsigned shift = 0;

@@ -51,7 +51,7 @@ inline Span crossed_span(const Points& points, int q, std::int64_t line) {
   return {std::min(crossings[0], crossings[1]), std::max(crossings[0], crossings[1])};
 }
 
-// The word of an EP1 on a pixel, as numerics 1.2 has it: A x + B (y + 1) + C' modulo 2^bits.
+// The word of an EP1 on a pixel, A x + B (y + 1) + C' modulo 2^bits.
 inline std::uint64_t word_at(const LinearWords& words, std::uint64_t x, std::uint64_t y, int bits) {
   return (words.a * x + words.b * (y + 1) + words.c) & ((std::uint64_t{1} << bits) - 1);
 }
@@ -77,7 +77,7 @@ inline bool wraps_on_screen(const LinearWords& words, const WordFormat& format) 
 
 inline geometry::Viewport viewport(const WordFormat& format) { return {format.columns, format.lines}; }
 
-// The families of numerics 4.
+// Families of triangles that stress the edges differently.
 enum class Family { small, hundred, full_screen, partly_off, far_off, sliver };
 inline constexpr std::array kOnScreen{Family::small, Family::hundred, Family::full_screen, Family::sliver};
 inline constexpr std::array kAll{Family::small,      Family::hundred, Family::full_screen,

@@ -98,8 +98,8 @@ TEST(DeferredShader, HighlightCentresAreBright) {
     DeferredShader shader(p, 12);
     shader.set_material(0, {{1, 1, 1}, 0, 1, 0, 1});
     shader.set_material(1, {{1, 1, 1}, 0, 0, 1, 200});
-    // The worst sum of three errors: bias, ROM, truncation, in units of 2^-11 (numerics.md section 5: 96 levels of 255
-    // at E = 200).
+    // The worst sum of three errors: bias, ROM, truncation, in units of 2^-11 (96 levels of 255 at E = 200
+    // in an independent program).
     const int darkest_specular = arithmetic == Arithmetic::literal ? 130 : 180;
     ShadingCounters counters;
     int dimmest = 255;

@@ -1,15 +1,16 @@
-// How far is the whole chain, tables filled incrementally, from shading in double? The end-to-end table of numerics.md
-// section 5, restated here with its set-up: every visible normal of a 400 x 400 grid over the unit disc, three lights
-// one at a time, viewer at infinity. Accepted: maximum within 2 levels or 15 %, 99.9th percentile within 2, mean within
-// 0.05 of every cell. Means and percentiles hold for every draw of lengths. A maximum is one pixel's and moves by up to
-// 20 % from draw to draw: of the first eight seeds, 3, 4 and 5 hold in all cells, the others miss one to five maxima;
-// seed 5 is used.
+// How far is the whole chain, tables filled incrementally, from shading in double? Every visible normal of a 400 x 400
+// grid over the unit disc with a random length in [1/2, 1], three lights one at a time, viewer at infinity. The
+// expected cells come from an independent program (C++, tables filled by direct formula): maximum / 99.9th percentile /
+// mean of the difference in levels. Accepted: maximum within 2 levels or 15 %, percentile within 2, mean within 0.05 of
+// every cell. A maximum is one pixel's, and moves by up to 20 % with the lengths that are drawn (the independent
+// program's draw is not known): the median of seven draws is compared. Percentile and mean must hold in every draw.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
 #include <string>
@@ -53,8 +54,8 @@ std::array<std::uint32_t, 3> pre_normalise(const Vector& normal, double length, 
   return words;
 }
 
-std::vector<Sample> grid(unsigned normal_bits) {
-  std::mt19937_64 random(5);
+std::vector<Sample> grid(unsigned normal_bits, std::uint64_t draw) {
+  std::mt19937_64 random(draw);
   std::vector<Sample> samples;
   for (int j = 0; j < 400; ++j)
     for (int i = 0; i < 400; ++i) {
@@ -90,9 +91,9 @@ Errors measure(const ShadingParameters& parameters, unsigned normal_bits, const 
     ShadingCounters counters;
     for (const Sample& sample : samples) {
       const int level = shader.shade_pixel(sample.words[0], sample.words[1], sample.words[2], 0, counters)[1];
-      const double exact =
-          material.ambient + material.diffuse * std::max(0.0, dot(sample.normal, light)) +
-          material.specular * std::pow(std::max(0.0, dot(sample.normal, halfway)), double(material.exponent));
+      const double exact = material.ambient + material.diffuse * std::max(0.0, dot(sample.normal, light)) +
+                           material.specular * std::pow(std::max(0.0, dot(sample.normal, halfway)),
+                                                        static_cast<double>(material.exponent));
       const int reference = static_cast<int>(std::floor(255.0 * std::min(1.0, exact) + 0.5));
       histogram[static_cast<std::size_t>(std::abs(level - reference))] += 1;
     }
@@ -116,12 +117,21 @@ struct Cell {
   Errors expected;
 };
 
-void expect_near(const Errors& got, const Cell& cell) {
-  SCOPED_TRACE("exponent " + std::to_string(cell.exponent) + ": " + std::to_string(got.max) + " / " +
-               std::to_string(got.p999) + " / " + std::to_string(got.mean));
-  EXPECT_LE(std::abs(got.max - cell.expected.max), std::max(2.0, 0.15 * cell.expected.max));
-  EXPECT_LE(std::abs(got.p999 - cell.expected.p999), 2);
-  EXPECT_LE(std::abs(got.mean - cell.expected.mean), 0.05);
+constexpr std::uint64_t kDraws = 7;
+
+// The cell over all draws: the median of the maxima; percentile and mean are checked draw by draw.
+void expect_near(std::array<Errors, kDraws> draws, const Cell& cell) {
+  std::sort(draws.begin(), draws.end(), [](const Errors& a, const Errors& b) { return a.max < b.max; });
+  const int maximum = draws[kDraws / 2].max;
+  std::printf("exponent %3d: max %2d (%d..%d) / %d / %.2f, expected %d / %d / %.2f\n", static_cast<int>(cell.exponent),
+              maximum, draws.front().max, draws.back().max, draws.front().p999, draws.front().mean, cell.expected.max,
+              cell.expected.p999, cell.expected.mean);
+  SCOPED_TRACE("exponent " + std::to_string(cell.exponent));
+  EXPECT_LE(std::abs(maximum - cell.expected.max), std::max(2.0, 0.15 * cell.expected.max));
+  for (const Errors& draw : draws) {
+    EXPECT_LE(std::abs(draw.p999 - cell.expected.p999), 2);
+    EXPECT_LE(std::abs(draw.mean - cell.expected.mean), 0.05);
+  }
 }
 
 void check_column(Arithmetic arithmetic, double ambient, double diffuse, double specular,
@@ -129,9 +139,14 @@ void check_column(Arithmetic arithmetic, double ambient, double diffuse, double 
   ShadingParameters parameters;
   parameters.arithmetic = arithmetic;
   parameters.normaliser_address_bits = arithmetic == Arithmetic::literal ? 12 : 14;
-  const std::vector<Sample> samples = grid(12);
-  for (const Cell& cell : cells)
-    expect_near(measure(parameters, 12, samples, {{1, 1, 1}, ambient, diffuse, specular, cell.exponent}), cell);
+  std::vector<std::vector<Sample>> grids;
+  for (std::uint64_t draw = 1; draw <= kDraws; ++draw) grids.push_back(grid(12, draw));
+  for (const Cell& cell : cells) {
+    std::array<Errors, kDraws> draws;
+    for (std::size_t i = 0; i < kDraws; ++i)
+      draws[i] = measure(parameters, 12, grids[i], {{1, 1, 1}, ambient, diffuse, specular, cell.exponent});
+    expect_near(draws, cell);
+  }
 }
 
 TEST(EndToEnd, LiteralSpecular) {
@@ -178,8 +193,8 @@ TEST(EndToEnd, CentredMix) {
                 {200, {20, 8, 0.48}}});
 }
 
-// "Wider" in the same section: 14-bit words, 13-bit components, 12-bit index; and 16, 15, 14. Their ROM is not given:
-// wide enough not to count.
+// Wider words: 14 bits, components of 13, index of 12; and 16, 15, 14. The inverse square root ROM is wide enough not
+// to count.
 TEST(EndToEnd, WiderWords) {
   const auto check = [](std::int64_t bits, std::int64_t index_bits, const std::vector<Cell>& cells) {
     ShadingParameters parameters;
@@ -187,7 +202,7 @@ TEST(EndToEnd, WiderWords) {
     parameters.index_bits = index_bits;
     parameters.normaliser_address_bits = 20;
     parameters.normaliser_output_bits = 16;
-    const std::vector<Sample> samples = grid(static_cast<unsigned>(bits));
+    const std::vector<Sample> samples = grid(static_cast<unsigned>(bits), 1);
     for (const Cell& cell : cells) {
       const Errors got = measure(parameters, static_cast<unsigned>(bits), samples, {{1, 1, 1}, 0, 0, 1, cell.exponent});
       EXPECT_LE(std::abs(got.max - cell.expected.max), std::max(2.0, 0.15 * cell.expected.max))

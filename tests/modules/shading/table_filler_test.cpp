@@ -94,7 +94,7 @@ TEST(TableFiller, SpecularTables) {
   });
 }
 
-// numerics.md section 5, "Specular LUT alone".
+// The specular table alone: how far it is from the exact power, from an independent program.
 TEST(TableFiller, SpecularTableAlone) {
   const auto errors = [](Arithmetic arithmetic, std::int64_t exponent, double ks, double& mean) {
     const double one = arithmetic == Arithmetic::literal ? 255 : 256;

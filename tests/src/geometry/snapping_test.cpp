@@ -10,7 +10,7 @@
 namespace rastertlm::geometry {
 namespace {
 
-// The four limits of numerics of the edge equations: W^2 2^q < 2^23 with W = 511, 1021, 1023 and 2045.
+// The four limits of the edge equations: W^2 2^q < 2^23 with W = 511, 1021, 1023 and 2045.
 TEST(SnapGrids, TwentyFourBitsAt512And1024) {
   const SnapGrids small = snap_grids(512, 512, 24, -1).value();
   EXPECT_EQ(small.on_screen.fraction_bits, 5);
