@@ -50,7 +50,7 @@ std::optional<std::string> choose_platform(const Document& document, const std::
   const bool is_set = last(overrides, "platform") != nullptr;
   const Entry* entry = document.find("platform");
   Diagnostic wrong{is_set ? "--set" : document.file(), is_set || entry == nullptr ? 0 : entry->line, "platform", ""};
-  const std::optional<std::string> platform = peek_platform(document, overrides);
+  std::optional<std::string> platform = peek_platform(document, overrides);
   if (platform && std::find(known.begin(), known.end(), *platform) != known.end()) return platform;
   if (platform) {
     wrong.message = fmt::format("'{}' is not accepted; accepted values: {}", printable(*platform), quoted_list(known));

@@ -10,7 +10,6 @@ namespace {
 using geometry::ClipTriangle;
 using geometry::ClipVertex;
 using geometry::Polygon;
-using geometry::ScreenVertex;
 using geometry::SnappedPoint;
 using geometry::Viewport;
 
