@@ -19,8 +19,8 @@ TEST(HostCost, T800) {
   EXPECT_DOUBLE_EQ(cost.clock().period_ns(), 50.0);
   EXPECT_NEAR(cost.cycles_per_flop(), 13.33, 0.005);
   EXPECT_EQ(cost.compute(flops(0)), Cycles(0));
-  EXPECT_EQ(cost.compute(flops(1)), Cycles(14));  // a piece of work is rounded up
-  EXPECT_EQ(cost.compute(flops(3)), Cycles(40));  // not every operation
+  EXPECT_EQ(cost.compute(flops(1)), Cycles(14));            // a piece of work is rounded up
+  EXPECT_EQ(cost.compute(flops(3)), Cycles(40));            // not every operation
   EXPECT_EQ(cost.compute(flops(30'000)), Cycles(400'000));  // a frame of 20 ms
   EXPECT_EQ(cost.bus(22), Cycles(66));
   EXPECT_EQ(cost.bus(0), Cycles(0));
