@@ -112,11 +112,12 @@ void take(Bottleneck& worst, const std::string& unit, const std::string& resourc
 
 }  // namespace
 
-std::uint64_t HostLoad::frames() const { return (update.cycles.count() + frame.count() - 1) / frame.count(); }
-
 HostLoad host_load(Imogene& platform) {
   HostLoad load;
-  load.frame = Cycles(platform.cost().clock().cycles_at(platform.timing().clock.picoseconds(platform.timing().frame)));
+  const Clock& clock = platform.cost().clock();
+  const std::uint64_t frame_ps = platform.timing().clock.picoseconds(platform.timing().frame);
+  // A frame is no whole number of host cycles: the one that has begun when it ends is too late.
+  load.frame = clock.cycles_at(frame_ps + 1) - Cycles(1);
   for (const auto& unit : platform.computation_units())
     load.steady = load.steady || (unit->updates().size() > 1 && platform.animation().moves());
   for (std::size_t k = 0; k < platform.computation_units().size(); ++k) {
@@ -127,6 +128,7 @@ HostLoad host_load(Imogene& platform) {
         load.unit = k;
       }
   }
+  load.frames = (clock.picoseconds(load.update.cycles) + frame_ps - 1) / frame_ps;
   return load;
 }
 
@@ -150,7 +152,7 @@ Answer imogene_answer(Imogene& platform, const std::vector<Budget>& budgets) {
   answer.required_rate_hz = machine.video.refresh_hz;
   answer.display_rate_hz = timing.obtained_refresh_hz();
   const auto load_frames = static_cast<std::uint64_t>(std::ceil(load_seconds / frame_seconds));
-  const std::uint64_t update_frames = moves ? std::max<std::uint64_t>({1, host.frames(), load_frames}) : 1;
+  const std::uint64_t update_frames = moves ? std::max<std::uint64_t>({1, host.frames, load_frames}) : 1;
   answer.update_rate_hz = answer.display_rate_hz / static_cast<double>(update_frames);
   answer.frame_rate_hz = answer.update_rate_hz;
   answer.latency_frames = update_frames;

@@ -13,8 +13,8 @@ struct HostLoad {
   std::size_t unit = 0;
   host::ComputationUnitModule::Update update;
   bool steady = false;  // measured on an update after the first picture; else on the first, in which everything is new
-  Cycles frame;         // host cycles of one video frame
-  std::uint64_t frames() const;  // video frames that the update takes
+  Cycles frame;         // host cycles that end within one video frame
+  std::uint64_t frames = 0;  // video frames that the update takes
 };
 HostLoad host_load(imogene::Imogene& platform);
 
