@@ -1,0 +1,376 @@
+// How long the host takes for a frame, and what the screen shows meanwhile. The timeline of an update is worked out
+// here from counted operations, message sizes and words alone, on the T800-20 of the default machine: 20 MHz, 40 / 3
+// cycles a floating-point operation, 19 + 23 / 2 cycles a byte on a link, store and forward, 3 cycles a word on the
+// bus.
+#include <sstream>
+
+#include "modules/host/computation.h"
+#include "platforms/imogene/imogene.h"
+#include "src/run/inputs.h"
+#include "tests/platforms/imogene/scenes.h"
+#include "tests/platforms/imogene/simulation.h"
+
+namespace rastertlm::test {
+namespace {
+
+constexpr std::uint64_t kHostPs = 50'000;
+constexpr std::uint64_t kFramePs = 333'333ULL * 60'000;
+constexpr double kDisplayHz = 1e12 / kFramePs;
+constexpr std::uint64_t kWords = 22;     // 21 coefficients and a material
+constexpr std::uint64_t kParkWords = 3;  // one edge is enough
+constexpr std::uint64_t kPieceBytes = 4 * (kWords + 1);
+
+std::uint64_t arithmetic(std::uint64_t flops) { return (40 * flops + 2) / 3; }
+std::uint64_t message(std::uint64_t bytes) { return 19 + (23 * bytes + 1) / 2; }
+
+// Who feeds unit k: another unit, or the animation unit (-1), which feeds three, as every unit does.
+using Parents = std::vector<int>;
+const Parents kTwo{-1, -1};
+const Parents kThree{-1, -1, -1};
+const Parents kFour{-1, -1, -1, 0};
+const Parents kEight{-1, -1, -1, 0, 0, 0, 1, 1};
+const Parents kChainOfFour{-1, 0, 1, 2};
+
+struct UnitWork {
+  std::uint64_t first_flops = 0;   // transformation
+  std::uint64_t second_flops = 0;  // coefficients
+  std::uint64_t words = 0;
+  std::uint64_t homeless = 0;  // pieces that it reports
+  std::uint64_t flops() const { return first_flops + second_flops; }
+};
+
+struct UpdateWork {
+  std::uint64_t message_bytes = 0;  // what the animation unit says
+  std::uint64_t placed = 0;         // pieces in its plan
+  std::vector<UnitWork> units;
+};
+
+// Host cycles from the retrace at which the animation unit begins to the last word of each unit.
+std::vector<std::uint64_t> timeline(const UpdateWork& work, const Parents& parents) {
+  const std::size_t count = parents.size();
+  const auto parent = [&](std::size_t k) { return static_cast<std::size_t>(parents[k]); };
+  std::vector<std::uint64_t> told(count), ready(count), subtree(count, 1), homeless(count), planned(count), done(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    told[k] = (parents[k] < 0 ? 0 : told[parent(k)]) + message(work.message_bytes);
+    ready[k] = told[k] + arithmetic(work.units[k].first_flops);
+    homeless[k] = work.units[k].homeless;
+  }
+  // A survey goes up when the own one and those from below are there.
+  std::uint64_t settled = 0;
+  for (std::size_t k = count; k-- > 0;) {
+    const std::uint64_t arrives = ready[k] + message(1 + 4 * subtree[k] + kPieceBytes * homeless[k]);
+    std::uint64_t& waits = parents[k] < 0 ? settled : ready[parent(k)];
+    waits = std::max(waits, arrives);
+    if (parents[k] < 0) continue;
+    subtree[parent(k)] += subtree[k];
+    homeless[parent(k)] += homeless[k];
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    planned[k] = (parents[k] < 0 ? settled : planned[parent(k)]) + message(1 + kPieceBytes * work.placed);
+    done[k] = planned[k] + arithmetic(work.units[k].second_flops) + 3 * work.units[k].words;
+  }
+  return done;
+}
+
+// The computation units' arithmetic, without the machine around it: what it counts.
+class Units {
+ public:
+  explicit Units(const run::Inputs& inputs) : scene_(inputs.content->scene) {
+    const imogene::Machine& machine = inputs.content->machine;
+    const auto columns = static_cast<std::size_t>(machine.video.columns);
+    const auto lines = static_cast<std::size_t>(machine.video.lines);
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i)
+      resident_.objects.push_back(
+          {&scene_.objects[i].mesh, scene_.objects[i].two_sided, !scene_.objects[i].animation.empty()});
+    resident_.pose = [this, columns, lines](std::int64_t frame) { return scene::pose(scene_, frame, columns, lines); };
+    const host::MachineFormat format{
+        {static_cast<int>(machine.object_processor.word_bits), columns, lines, machine.object_processor.edges},
+        imogene::snap_grids(machine),
+        {columns, lines},
+        static_cast<std::uint32_t>(machine.host.processors_per_unit)};
+    for (const auto& owners : host::assign_objects(scene_.triangle_count(), machine.host).boards)
+      units_.emplace_back(resident_, format, owners);
+  }
+
+  // Of an animation frame in which every object moves: a header, the matrices of the moving objects, and in the first
+  // one the camera's two and the lights.
+  UpdateWork update(std::int64_t animation_frame, bool initial) {
+    const host::FrameWork work = host::Animation(resident_, false).frame_work(animation_frame, initial);
+    UpdateWork result;
+    result.message_bytes = 8 + 64 * scene_.objects.size() + (initial ? 2 * 64 + 12 * scene_.lights.size() : 0);
+    bool guarded = false;
+    std::vector<host::Piece> homeless;
+    std::vector<std::uint32_t> free_slots;
+    for (host::Computation& unit : units_) {
+      const std::uint64_t before = unit.operations().flops();
+      const host::Survey survey = unit.survey(work);
+      guarded = guarded || survey.guarded;
+      free_slots.push_back(survey.free_slots);
+      homeless.insert(homeless.end(), survey.homeless.begin(), survey.homeless.end());
+      result.units.push_back({unit.operations().flops() - before, 0, 0, survey.homeless.size()});
+    }
+    const auto placed = host::place_pieces(homeless, free_slots);
+    for (std::size_t k = 0; k < units_.size(); ++k) {
+      const std::uint64_t before = units_[k].operations().flops();
+      for (const host::Load& load : units_[k].set_up(guarded, placed[k]))
+        result.units[k].words += load.park ? kParkWords : kWords;
+      result.units[k].second_flops = units_[k].operations().flops() - before;
+      result.placed += placed[k].size();
+    }
+    return result;
+  }
+
+ private:
+  const scene::Scene& scene_;
+  host::ResidentScene resident_;
+  std::vector<host::Computation> units_;
+};
+
+struct Update {
+  std::int64_t animation_frame = 0;
+  std::uint64_t cycles = 0, computing = 0, writing = 0, flops = 0, words = 0;
+};
+
+// What the machine's units did: one list a unit.
+std::vector<std::vector<Update>> updates_of(const run::Inputs& inputs, std::uint64_t frames) {
+  const std::string text = in_child([&] {
+    imogene::Imogene platform(inputs.content->machine, inputs.content->scene, {frames, false}, {});
+    platform.run();
+    std::ostringstream out;
+    for (const auto& unit : platform.computation_units()) {
+      out << unit->updates().size() << '\n';
+      for (const auto& u : unit->updates())
+        out << u.animation_frame << ' ' << u.cycles.count() << ' ' << u.computing.count() << ' ' << u.writing.count()
+            << ' ' << u.flops << ' ' << u.words << '\n';
+    }
+    return out.str();
+  });
+  std::istringstream in(text);
+  std::vector<std::vector<Update>> all;
+  for (std::size_t count = 0; in >> count;) {
+    std::vector<Update>& unit = all.emplace_back(count);
+    for (Update& u : unit) in >> u.animation_frame >> u.cycles >> u.computing >> u.writing >> u.flops >> u.words;
+  }
+  return all;
+}
+
+std::uint64_t video_frames(std::uint64_t host_cycles) { return (host_cycles * kHostPs + kFramePs - 1) / kFramePs; }
+
+struct Host {
+  const char* name;
+  Parents parents;
+  std::uint64_t processors;  // of a unit
+  std::vector<std::string> set;
+  std::uint64_t late;  // video frames an update takes; 0: not said
+};
+
+class HostTimelineTest : public SimulationTest, public testing::WithParamInterface<Host> {
+ protected:
+  static constexpr std::uint64_t kFrames = 9;
+
+  std::vector<std::string> set() const {
+    std::vector<std::string> all{"video.columns=128", "video.lines=128",
+                                 "host.computation_units=" + std::to_string(GetParam().parents.size()),
+                                 "host.processors_per_unit=" + std::to_string(GetParam().processors)};
+    all.insert(all.end(), GetParam().set.begin(), GetParam().set.end());
+    return all;
+  }
+
+  // Every object of the scene moves.
+  void expect_timeline(const std::string& scene_file) const {
+    const run::Inputs inputs = run::read_inputs(kMachine, scene_file, set());
+    const Simulated simulated = simulate(kMachine, scene_file, {.set = set(), .frames = kFrames});
+    const auto updates = updates_of(inputs, kFrames);
+    ASSERT_EQ(updates.size(), GetParam().parents.size());
+    Units units(inputs);
+
+    std::uint64_t displayed = 0;       // at which the update in hand shows
+    std::uint64_t slowest_cycles = 0;  // of those after the first picture
+    std::int64_t animation_frame = 0;
+    for (std::size_t i = 0; i < updates[0].size(); ++i) {
+      SCOPED_TRACE("update " + std::to_string(i));
+      const UpdateWork work = units.update(animation_frame, i == 0);
+      const std::vector<std::uint64_t> done = timeline(work, GetParam().parents);
+      for (std::size_t k = 0; k < done.size() && i < updates[k].size(); ++k) {
+        const Update& update = updates[k][i];
+        EXPECT_EQ(update.animation_frame, animation_frame);
+        EXPECT_EQ(update.flops, work.units[k].flops()) << "unit " << k;
+        EXPECT_EQ(update.words, work.units[k].words) << "unit " << k;
+        EXPECT_EQ(update.computing, arithmetic(work.units[k].first_flops) + arithmetic(work.units[k].second_flops));
+        EXPECT_EQ(update.writing, 3 * work.units[k].words);
+        EXPECT_EQ(update.cycles, done[k]) << "unit " << k;
+        if (i > 0) slowest_cycles = std::max(slowest_cycles, done[k]);
+      }
+      const std::uint64_t takes = video_frames(*std::max_element(done.begin(), done.end()));
+      // The first update is the initial load; the frames after it start when the one before is shown, for the video
+      // frame that follows.
+      if (i == 0)
+        EXPECT_EQ(simulated.result.answer.initial_load_frames, takes);
+      else
+        expect_late(simulated, displayed, displayed + takes);
+      if (i > 0) displayed += takes;
+      if (displayed < kFrames) {
+        const run::FrameFigures& frame = simulated.result.frames[displayed];
+        EXPECT_EQ(frame.animation_frame, animation_frame);
+        std::uint64_t words = 0;
+        std::uint64_t flops = 0;
+        for (const UnitWork& unit : work.units) {
+          words += unit.words;
+          flops += unit.flops();
+        }
+        EXPECT_EQ(frame.words_sent, words);
+        EXPECT_EQ(frame.host_flops, flops);
+      }
+      animation_frame = static_cast<std::int64_t>(displayed) + 1;
+    }
+    ASSERT_GE(displayed + video_frames(slowest_cycles), kFrames) << "not all frames were looked at";
+
+    const std::uint64_t slowest = video_frames(slowest_cycles);
+    EXPECT_NEAR(simulated.result.answer.update_rate_hz, kDisplayHz / static_cast<double>(slowest), 1e-6);
+    EXPECT_EQ(simulated.result.answer.latency_frames, slowest);
+    EXPECT_EQ(simulated.result.answer.sustained, slowest == 1);
+    const run::Budget& budget = named(simulated.result.budgets, "host.update");
+    EXPECT_DOUBLE_EQ(budget.used, static_cast<double>(slowest_cycles));
+    EXPECT_EQ(budget.available, 399'999);  // of 50 ns, whole in 19.99998 ms
+    if (GetParam().late != 0) {
+      EXPECT_EQ(slowest, GetParam().late);
+    }
+    for (const run::FrameFigures& frame : simulated.result.frames) {
+      EXPECT_EQ(error_of(frame, "snapped").covered_missing, 0U);
+      EXPECT_EQ(error_of(frame, "snapped").covered_extra, 0U);
+    }
+  }
+
+  // Between two updates the picture stays, and nothing is computed for it; at an update it changes.
+  static void expect_late(const Simulated& simulated, std::uint64_t from, std::uint64_t to) {
+    for (std::uint64_t k = from + 1; k < to && k < kFrames; ++k) {
+      EXPECT_TRUE(same_picture(simulated.shown[k], simulated.shown[k - 1])) << "frame " << k;
+      EXPECT_EQ(simulated.result.frames[k].animation_frame, simulated.result.frames[from].animation_frame);
+      EXPECT_EQ(simulated.result.frames[k].host_flops, 0U);
+      EXPECT_EQ(simulated.result.frames[k].words_sent, 0U);
+    }
+    if (to < kFrames) {
+      EXPECT_NE(simulated.shown[to].rgb, simulated.shown[to - 1].rgb) << "frame " << to;
+    }
+  }
+};
+
+TEST_P(HostTimelineTest, IsThatOfItsOperationsMessagesAndWords) { expect_timeline(kTeapot); }
+
+// Eight boards need nine tenths of a frame: half of them, two frames; a quarter, four.
+INSTANTIATE_TEST_SUITE_P(Imogene, HostTimelineTest,
+                         testing::Values(Host{"EightBoards", kEight, 128, {}, 1}, Host{"FourBoards", kFour, 256, {}, 2},
+                                         Host{"TwoBoards", kTwo, 512, {}, 4},
+                                         Host{"ChainOfFour", kChainOfFour, 256, {"host.link_topology=chain"}, 2},
+                                         Host{"ThreeBoardsInBlocks", kThree, 512, {"host.assignment=block"}, 0}),
+                         [](const auto& host) { return std::string(host.param.name); });
+
+// Pieces that find no processor on their own board travel up with the surveys and down with the plan.
+class PieceTimelineTest : public HostTimelineTest {};
+
+TEST_P(PieceTimelineTest, CountsThePiecesThatTravel) {
+  const std::string scene = written("pieces.toml", scene_of(std::string(kSphere) + "two_sided = true\n" + kSpin,
+                                                            std::string(kCamera) + "near = 9.1\n"));
+  const run::Inputs inputs = run::read_inputs(kMachine, scene, set());
+  Units units(inputs);
+  ASSERT_GT(units.update(0, true).placed, 20U);
+  expect_timeline(scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Imogene, PieceTimelineTest,
+    testing::Values(Host{"Tree", kThree, 360, {"host.assignment=block"}, 0},
+                    Host{"Chain", kChainOfFour, 240, {"host.assignment=block", "host.link_topology=chain"}, 0}),
+    [](const auto& host) { return std::string(host.param.name); });
+
+class BoundaryTest : public SimulationTest {
+ protected:
+  // So many small triangles that turn, one beside the other.
+  std::string triangles(std::size_t count) const {
+    std::string positions;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string x = std::to_string(i);
+      positions += "[0." + x + ", 0.0, 0.0], [1.0, 0.0, 0." + x + "], [0.0, 0." + x + ", 1.0], ";
+    }
+    return written("triangles.toml", scene_of("[[object]]\ntype = \"triangles\"\ntwo_sided = true\npositions = [" +
+                                              positions + "]\n" + kSpin));
+  }
+  static std::vector<std::string> set(std::uint64_t link_set_up) {
+    return {"video.columns=64", "video.lines=64", "host.computation_units=1",
+            "host.link_set_up_cycles=" + std::to_string(link_set_up)};
+  }
+};
+
+// 399,999 host cycles end within the frame of 19.99998 ms, the 400,000th does not. One unit: three messages, whose
+// start is stretched until the update takes exactly that; the number of triangles settles what is left over modulo 3.
+TEST_F(BoundaryTest, OneCycleMoreThanAFrameIsLate) {
+  constexpr std::uint64_t kDefaultSetUp = 19;
+  for (const std::uint64_t wanted : {399'999ULL, 400'000ULL}) {
+    SCOPED_TRACE(wanted);
+    bool found = false;
+    for (std::size_t count = 1; count <= 9 && !found; ++count) {
+      const std::string scene = triangles(count);
+      const run::Inputs inputs = run::read_inputs(kMachine, scene, set(kDefaultSetUp));
+      Units units(inputs);
+      units.update(0, true);
+      const std::uint64_t cycles = timeline(units.update(1, false), {-1}).at(0);
+      if ((wanted - cycles) % 3 != 0) continue;
+      found = true;
+      const std::uint64_t late = wanted == 400'000 ? 1 : 0;
+      const Simulated simulated = simulate(
+          kMachine, scene, {.set = set(kDefaultSetUp + (wanted - cycles) / 3), .frames = 2, .reference = false});
+      EXPECT_EQ(named(simulated.result.budgets, "host.update").used, static_cast<double>(wanted));
+      EXPECT_EQ(named(simulated.result.budgets, "host.update").fits, late == 0);
+      EXPECT_EQ(simulated.result.answer.latency_frames, 1 + late);
+      EXPECT_EQ(simulated.result.frames.at(1).animation_frame, late == 0 ? 1 : 0);
+    }
+    EXPECT_TRUE(found);
+  }
+}
+
+// The camera turns: every frame has new tables. 6144 entries of 26 cycles at 3 MHz take 53.2 ms, three frames.
+class LateTablesTest : public SimulationTest {
+ protected:
+  static constexpr std::uint64_t kFrames = 7;
+  Simulated turned(std::vector<std::string> set) const {
+    set.insert(set.end(), {"video.columns=64", "video.lines=64"});
+    return show(
+        scene_of(kSphere, std::string(kCamera) +
+                              "[[camera.animation]]\ntype = \"orbit\"\naxis = [0.2, 0.0, 1.0]\ndeg_per_frame = 9.0\n"),
+        {.set = set, .frames = kFrames});
+  }
+};
+
+TEST_F(LateTablesTest, KeepTheOldPictureAndItsTables) {
+  const Simulated simulated = turned({"loader.dot_clock_mhz=3.0"});
+  constexpr std::uint64_t kLate = 3;
+  EXPECT_NEAR(simulated.result.answer.update_rate_hz, kDisplayHz / kLate, 1e-6);
+  EXPECT_FALSE(simulated.result.answer.sustained);
+  EXPECT_EQ(simulated.result.answer.bottleneck.unit, "table loader");
+  EXPECT_NEAR(named(simulated.result.budgets, "tables.update").used, 6144 * 26 / 3.0, 1e-3);
+  for (std::size_t k = 1; k < kFrames; ++k)
+    EXPECT_EQ(same_picture(simulated.shown[k], simulated.shown[k - 1]), k % kLate != 0) << "frame " << k;
+  expect_exact(simulated, 5);
+}
+
+// In its retrace of 615.66 us a sequencer loads 6144 entries of 60 ns, and a 68000 does not.
+TEST_F(LateTablesTest, OfOneBankAreLoadedInTheRetraceOrRefused) {
+  const Simulated banks = turned({});
+  const Simulated simulated = turned({"loader.kind=sequencer", "loader.when=retrace"});
+  for (std::size_t k = 0; k < kFrames; ++k)
+    EXPECT_TRUE(same_picture(simulated.shown[k], banks.shown[k])) << "frame " << k;
+  EXPECT_NEAR(named(simulated.result.budgets, "tables.update").used, 6144 * 0.06, 1e-6);
+  EXPECT_TRUE(simulated.result.answer.sustained);
+  const run::UnitFigures& engine = named(simulated.result.units, "dot product loader");
+  EXPECT_EQ(engine.busy, (kFrames - 1) * 6144);
+  try {
+    turned({"loader.when=retrace"});
+    FAIL() << "19,968 us do not fit";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("19968 us"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("loader.when"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace rastertlm::test
