@@ -57,7 +57,7 @@ void ComputationUnitModule::run() {
     Message message = take(Message::Kind::frame);
     forward(message);
     work_on_frame(*message.work);
-    update_.cycles = cost_.clock().cycles_at(picoseconds_now()) - cost_.clock().cycles_at(swap_ps_);
+    update_.cycles = cycles_since_swap();
     updates_.push_back(update_);
     ready.write(true);
     meter_.enter(Activity::idle, picoseconds_now());
@@ -66,6 +66,12 @@ void ComputationUnitModule::run() {
     if (first) meter_.restart(swap_ps_);
     ready.write(false);
   }
+}
+
+// Everything since the swap took whole cycles, each piece of work rounded to a picosecond: the nearest number of cycles
+// is the exact one.
+Cycles ComputationUnitModule::cycles_since_swap() const {
+  return cost_.clock().cycles_round(static_cast<double>(picoseconds_now() - swap_ps_) * 1e-12);
 }
 
 void ComputationUnitModule::work_on_frame(const FrameWork& work) {

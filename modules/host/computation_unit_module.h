@@ -52,6 +52,7 @@ class ComputationUnitModule : public sc_core::sc_module {
  private:
   void run_guarded();
   void run();
+  Cycles cycles_since_swap() const;
   Message take(Message::Kind kind);
   void forward(const Message& message);
   void report(Survey own);

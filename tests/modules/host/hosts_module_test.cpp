@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uint64_t kCyclePs = 50'000;
 
-std::uint64_t message(std::uint64_t bytes) { return 19 + (23 * bytes + 1) / 2; }
+std::uint64_t twenty_megahertz(std::uint64_t bytes) { return 19 + (23 * bytes + 1) / 2; }
 std::uint64_t compute(std::uint64_t flops) { return (40 * flops + 2) / 3; }
 
 glm::dvec3 at(double x, double y) { return {(x + 0.5) / 32 - 1, 1 - (y + 0.5) / 24, 0.5}; }
@@ -67,7 +67,8 @@ std::vector<std::vector<Work>> work_of(const Hosts& hosts, std::int64_t frames) 
 
 // Unit 2 below unit 1 below unit 0: frame messages of `bytes`, surveys of 5, 9 and 13 bytes (a flag, and four bytes a
 // unit), plans of one byte. Cycles from the start to ready, by unit.
-std::vector<std::uint64_t> chain_schedule(std::uint64_t bytes, const std::vector<Work>& work) {
+std::vector<std::uint64_t> chain_schedule(std::uint64_t bytes, const std::vector<Work>& work,
+                                          std::uint64_t (*message)(std::uint64_t) = twenty_megahertz) {
   std::vector<std::uint64_t> surveyed;
   for (std::size_t k = 0; k < 3; ++k) surveyed.push_back((k + 1) * message(bytes) + compute(work[k].survey));
   const std::uint64_t from_2 = surveyed[2] + message(5);
@@ -81,6 +82,7 @@ std::vector<std::uint64_t> chain_schedule(std::uint64_t bytes, const std::vector
 
 // Units 0 and 1 below the animation unit, unit 2 below unit 0: what a tree of three links makes of three units.
 std::vector<std::uint64_t> tree_schedule(std::uint64_t bytes, const std::vector<Work>& work) {
+  const auto message = twenty_megahertz;
   const std::uint64_t hop = message(bytes);
   const std::uint64_t from_2 = 2 * hop + compute(work[2].survey) + message(5);
   const std::uint64_t from_0 = std::max(hop + compute(work[0].survey), from_2) + message(9);
@@ -116,7 +118,7 @@ TEST(HostsModule, InitialLoadInAChain) {
   EXPECT_EQ(hosts.links[0].bytes(), 276U + 1 + 13);
   EXPECT_EQ(hosts.links[1].bytes(), 276U + 1 + 9);
   EXPECT_EQ(hosts.links[2].bytes(), 276U + 1 + 5);
-  EXPECT_EQ(hosts.links[2].active(), Cycles(message(276) + message(1) + message(5)));
+  EXPECT_EQ(hosts.links[2].active(), Cycles(twenty_megahertz(276) + twenty_megahertz(1) + twenty_megahertz(5)));
 }
 
 TEST(HostsModule, InitialLoadInATree) {
@@ -129,6 +131,22 @@ TEST(HostsModule, InitialLoadInATree) {
   const auto expected = tree_schedule(8 + 128 + 12 + 64, work);
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_THAT(hosts.edges[k].list(), testing::ElementsAre(stream::Edges::Edge{expected[k] * kCyclePs, true})) << k;
+}
+
+// At 30 MHz no number of picoseconds is a cycle: what a unit counts is still the sum of whole cycles.
+TEST(HostsModule, CyclesOfARationalClockAreWhole) {
+  Hosts hosts;
+  add_objects(hosts, {{5, true}, {4, false}});
+  hosts.parameters.link_topology = LinkTopology::chain;
+  hosts.parameters.clock_hz = 30'000'000;
+  hosts.parameters.sustained_mflops = 2.25;
+  hosts.parameters.link_set_up_cycles = 20;
+  const auto work = work_of(hosts, 1)[0];
+  hosts.build();
+  stream::simulate();
+  const auto thirty = [](std::uint64_t bytes) { return 20 + (69 * bytes + 3) / 4; };
+  const auto expected = chain_schedule(8 + 128 + 12 + 2 * 64, work, thirty);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(hosts.units[k].updates().at(0).cycles, Cycles(expected[k])) << k;
 }
 
 // After the retrace that shows a frame the next one begins: only what moves is sent, and cycles count from that
