@@ -16,14 +16,15 @@ namespace {
 // A machine that has shown nothing after so many frames never will.
 constexpr std::uint64_t kPatienceFrames = 1'000'000;
 
-std::vector<std::size_t> used_materials(const scene::Scene& scene, shading::LoadedMaterials which) {
-  std::set<std::size_t> used;
-  if (which == shading::LoadedMaterials::all) {
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) used.insert(i);
-  } else {
-    for (const scene::Object& object : scene.objects)
-      used.insert(object.mesh.material.begin(), object.mesh.material.end());
+std::vector<std::size_t> loaded_materials(const Machine& machine, const scene::Scene& scene) {
+  if (machine.loader.materials == shading::LoadedMaterials::all) {
+    std::vector<std::size_t> all(static_cast<std::size_t>(machine.shading.materials));
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
   }
+  std::set<std::size_t> used;
+  for (const scene::Object& object : scene.objects)
+    used.insert(object.mesh.material.begin(), object.mesh.material.end());
   return {used.begin(), used.end()};
 }
 
@@ -108,6 +109,10 @@ void Imogene::load_materials() {
                           material.exponent},
                          fmt::format("material[{}].exponent", i));
   }
+  // A loader of all materials also fills the tables of those that the scene does not have: black ones.
+  if (machine_.loader.materials == shading::LoadedMaterials::all)
+    for (std::size_t i = scene_.materials.size(); i < static_cast<std::size_t>(machine_.shading.materials); ++i)
+      shader_.set_material(i, {.colour = {0, 0, 0}, .exponent = machine_.shading.exponents.front()});
   shader_.set_ambient_light({scene_.ambient_light.x, scene_.ambient_light.y, scene_.ambient_light.z});
   shader_.set_background({scene_.background.x, scene_.background.y, scene_.background.z});
 }
@@ -204,7 +209,7 @@ void Imogene::build_shading() {
     return shading::TableLoaderModule::Engine{&link, stream::OccupancyMeter(clock)};
   };
   table_loader_ = std::make_unique<shading::TableLoaderModule>(
-      "table_loader", shader_, machine_.loader, used_materials(scene_, machine_.loader.materials),
+      "table_loader", shader_, machine_.loader, loaded_materials(machine_, scene_),
       timing_.clock.picoseconds(timing_.vertical_retrace), video_timing_->swapped,
       std::array<shading::TableLoaderModule::Engine, 3>{
           engine("dot product loader", machine_.loader.dot_clock_mhz, machine_.shading.dot_table_output_bits),
