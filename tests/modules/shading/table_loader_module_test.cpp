@@ -1,0 +1,298 @@
+// Are tables loaded in the loaders' own time, used from the retrace that copies, and refused where they cannot be in
+// time?
+#include "modules/shading/table_loader_module.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "modules/shading/deferred_shading_module.h"
+#include "modules/stream/simulated_time.h"
+#include "src/base/errors.h"
+#include "tests/modules/stream/simulation.h"
+
+namespace rastertlm::shading {
+namespace {
+
+using Edge = stream::Edges::Edge;
+using testing::ElementsAre;
+
+constexpr std::uint64_t kMicrosecond = 1'000'000;
+constexpr std::uint64_t kMillisecond = 1000 * kMicrosecond;
+constexpr std::uint64_t kRetracePs = 600 * kMicrosecond;  // 004, section 5.3.6
+
+LightArguments light(double x, double y, double z) {
+  const auto unit = [](double a, double b, double c) {
+    const double length = std::sqrt(a * a + b * b + c * c);
+    return Direction{a / length, b / length, c / length};
+  };
+  const Direction towards = unit(x, y, z);
+  return {towards, unit(towards[0], towards[1], towards[2] + 1), {1, 1, 1}};
+}
+
+const LightArguments kFirst = light(0.3, -0.5, 0.8);
+const LightArguments kSecond = light(-0.2, 0.4, 0.7);
+
+// Host, video timing and screen around a shading processor.
+class Surroundings : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_initiator_socket<Surroundings, stream::kNoBusWidth, LightProtocol> lights;
+  tlm_utils::simple_initiator_socket<Surroundings, stream::kNoBusWidth, stream::SyncProtocol> to_loader;
+  tlm_utils::simple_initiator_socket<Surroundings, stream::kNoBusWidth, stream::SyncProtocol> to_shading;
+  tlm_utils::simple_initiator_socket<Surroundings, stream::kNoBusWidth, stream::FragmentProtocol> fragments;
+  tlm_utils::simple_target_socket<Surroundings, stream::kNoBusWidth, stream::RgbProtocol> rgb;
+  sc_core::sc_event swapped;
+
+  explicit Surroundings(const sc_core::sc_module_name& name)
+      : sc_module(name),
+        lights("lights"),
+        to_loader("to_loader"),
+        to_shading("to_shading"),
+        fragments("fragments"),
+        rgb("rgb") {
+    rgb.register_b_transport(this, &Surroundings::receive);
+  }
+
+  void announce(bool changed, const LightArguments& arguments) {
+    LightPayload payload;
+    payload.changed = changed;
+    payload.lights = {arguments};
+    sc_core::sc_time delay;
+    lights->b_transport(payload, delay);
+  }
+  // As the video timing: the loader first, then the shading processor; then whoever waits for a swap. Whether the
+  // tables were switched.
+  bool retrace(bool copy) {
+    stream::SyncPayload payload;
+    payload.kind = stream::SyncPayload::Kind::retrace;
+    payload.copy = copy;
+    sc_core::sc_time delay;
+    to_loader->b_transport(payload, delay);
+    to_shading->b_transport(payload, delay);
+    if (copy) swapped.notify(sc_core::SC_ZERO_TIME);
+    return payload.switch_tables;
+  }
+
+ private:
+  void receive(stream::RgbPayload&, sc_core::sc_time&) {}
+};
+
+ShadingParameters shading_parameters() {
+  ShadingParameters parameters;
+  parameters.materials = 4;
+  return parameters;
+}
+
+void set_materials(DeferredShader& shader) {
+  shader.set_material(0, {{0.9, 0.5, 0.2}, 0.1, 0.5, 0.4, 20});
+  shader.set_material(2, {{1.0, 1.0, 1.0}, 0.2, 0.6, 0.2, 100});
+  shader.set_ambient_light({1.0, 0.5, 1.0});
+  shader.set_background({1, 2, 3});
+}
+
+struct Machine {
+  Surroundings around{"around"};
+  DeferredShader shader;
+  stream::Link rgb_link{"rgb", 24, Clock::from_period_ns("pixel clock", 60.0)};
+  DeferredShadingModule shading;
+  std::vector<stream::Link> links;
+  TableLoaderModule loader;
+  sc_core::sc_signal<bool> ready{"ready_signal"};
+  stream::Edges edges{"edges", ready};
+
+  static std::vector<stream::Link> engine_links(const LoaderParameters& p) {
+    const auto clock = [&](double mhz) {
+      return p.kind == LoaderKind::sequencer
+                 ? Clock::from_period_ns("loader", p.sequencer_clock_ns)
+                 : Clock::from_frequency_hz("loader", static_cast<std::uint64_t>(mhz * 1e6));
+    };
+    return {{"dot", 11, clock(p.dot_clock_mhz)},
+            {"diffuse", 8, clock(p.diffuse_clock_mhz)},
+            {"specular", 8, clock(p.specular_clock_mhz)}};
+  }
+  TableLoaderModule::Engine engine(std::size_t i) { return {&links[i], stream::OccupancyMeter(links[i].clock())}; }
+
+  explicit Machine(const LoaderParameters& parameters, std::vector<std::size_t> materials = {0})
+      : shader(shading_parameters(), 12, parameters.when == LoadTime::frame ? 2 : 1),
+        shading("deferred_shading", shader, 16, Clock::from_period_ns("pixel clock", 60.0), Cycles(10), rgb_link),
+        links(engine_links(parameters)),
+        loader("table_loader", shader, parameters, std::move(materials), kRetracePs, around.swapped,
+               {engine(0), engine(1), engine(2)}) {
+    set_materials(shader);
+    around.lights.bind(loader.lights);
+    around.to_loader.bind(loader.sync);
+    around.to_shading.bind(shading.sync);
+    around.fragments.bind(shading.in);
+    shading.out.bind(around.rgb);
+    loader.bus.bind(shading.bus);
+    loader.ready.bind(ready);
+  }
+};
+
+LoaderParameters loader(LoaderKind kind, LoadTime when) {
+  LoaderParameters parameters;
+  parameters.kind = kind;
+  parameters.when = when;
+  return parameters;
+}
+
+// Every word that a processor with all the time it needs would have, given this light.
+void expect_tables(const TableBank& bank, const LightArguments& arguments) {
+  DeferredShader shader(shading_parameters(), 12, 1);
+  set_materials(shader);
+  shader.set_light(0, arguments);
+  shader.load();
+  const std::uint32_t index_mask = (1U << 10) - 1;
+  std::size_t different = 0;
+  for (std::uint32_t address = 0; address < bank.words(); ++address) {
+    const EntryAddress place = bank.decode(address);
+    const bool by_material = place.table.kind == TableKind::diffuse || place.table.kind == TableKind::specular;
+    if (by_material && (place.entry & ~index_mask) != 0) continue;  // material 0 alone is loaded
+    different += bank.read(address) != shader.front().read(address) ? 1U : 0U;
+  }
+  EXPECT_EQ(different, 0U);
+}
+
+bool all_zero(const TableBank& bank) {
+  for (std::uint32_t address = 0; address < bank.words(); ++address)
+    if (bank.read(address) != 0) return false;
+  return true;
+}
+
+// 004, section 5.3.6: 6144 entries in 20 ms by a 68000 of 8 MHz; 26 cycles an entry make 19.968 ms. Two banks: the new
+// tables are used from the retrace that copies, not before.
+TEST(TableLoaderModule, TwoBanksLoadedBy68000s) {
+  Machine m(loader(LoaderKind::mc68000, LoadTime::frame));
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(30, sc_core::SC_MS);
+    EXPECT_TRUE(all_zero(m.shader.front()));
+    EXPECT_FALSE(m.around.retrace(false));
+    EXPECT_TRUE(all_zero(m.shader.front()));
+    sc_core::wait(20, sc_core::SC_MS);
+    EXPECT_TRUE(m.around.retrace(true));  // 50 ms
+    expect_tables(m.shader.front(), kFirst);
+    m.around.announce(true, kSecond);
+    sc_core::wait(25, sc_core::SC_MS);
+    expect_tables(m.shader.front(), kFirst);
+    EXPECT_TRUE(m.around.retrace(true));  // 75 ms
+    expect_tables(m.shader.front(), kSecond);
+  });
+  stream::simulate();
+  EXPECT_THAT(m.edges.list(),
+              ElementsAre(Edge{19'968 * kMicrosecond, true}, Edge{50 * kMillisecond, false},
+                          Edge{50 * kMillisecond + 19'968 * kMicrosecond, true}, Edge{75 * kMillisecond, false}));
+  EXPECT_NEAR(m.loader.longest_load_seconds(), 19.968e-3, 1e-9);
+  // Each dot-product unit has a loader of its own; both work at the same time.
+  EXPECT_EQ(m.links[0].words(), 2U * 2 * 6144);
+  EXPECT_EQ(m.loader.words_sent(), m.shading.words_loaded());
+}
+
+// From the first picture on: a load of 6144 entries x 26 cycles keeps the dot loaders busy, the others are done before.
+TEST(TableLoaderModule, EnginesAreBusyForTheirOwnLoad) {
+  Machine m(loader(LoaderKind::mc68000, LoadTime::frame));
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(30, sc_core::SC_MS);
+    m.around.retrace(true);
+    m.around.announce(true, kSecond);
+    sc_core::wait(30, sc_core::SC_MS);
+  });
+  stream::simulate();
+  const std::uint64_t end = 60 * kMillisecond;
+  EXPECT_EQ(m.loader.occupancy(0, end).busy, 6144U * 26);
+  EXPECT_EQ(m.loader.occupancy(0, end).cycles, 240'000U);
+  EXPECT_EQ(m.loader.occupancy(1, end).busy, 18'944U);                     // 1024 x 18.5
+  EXPECT_EQ(m.loader.occupancy(2, end).busy, 1024U * 12 + (255 + 1) * 8);  // one path and its change of arguments
+  for (std::size_t engine = 0; engine < 3; ++engine) m.loader.occupancy(engine, end).check("loader");
+}
+
+// Registers go with a load: signs of L and H, ambient Ka Ia colour of every material, the background.
+TEST(TableLoaderModule, RegistersArrive) {
+  Machine m(loader(LoaderKind::mc68000, LoadTime::frame));
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(20, sc_core::SC_MS);
+    m.around.retrace(true);
+  });
+  stream::simulate();
+  const TableBank& bank = m.shader.front();
+  const std::vector<std::uint8_t> ambient{23, 6, 5, 0, 0, 0, 51, 26, 51, 0, 0, 0};  // 255 x (0.09, 0.025, 0.02) ...
+  EXPECT_THAT(bank.ambient, testing::ElementsAreArray(ambient));
+  EXPECT_THAT(bank.background, ElementsAre(1, 2, 3));
+  EXPECT_EQ(bank.read({TableKind::signs, 0, 0}, 0), 0b010'010U);  // y is negative, of L and of H
+}
+
+// Where no light changed the tables stay, and nobody waits for them.
+TEST(TableLoaderModule, AnUnchangedFrameLoadsNothing) {
+  Machine m(loader(LoaderKind::mc68000, LoadTime::frame));
+  std::uint64_t words = 0;
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(20, sc_core::SC_MS);
+    m.around.retrace(true);
+    words = m.loader.words_sent();
+    sc_core::wait(1, sc_core::SC_MS);
+    m.around.announce(false, kSecond);
+    sc_core::wait(19, sc_core::SC_MS);
+    EXPECT_FALSE(m.around.retrace(true));
+    expect_tables(m.shader.front(), kFirst);
+  });
+  stream::simulate();
+  EXPECT_EQ(m.loader.words_sent(), words);
+  EXPECT_THAT(m.edges.list(), ElementsAre(Edge{19'968 * kMicrosecond, true}, Edge{20 * kMillisecond, false},
+                                          Edge{21 * kMillisecond, true}, Edge{40 * kMillisecond, false}));
+}
+
+// 6144 x 60 ns = 368.64 us, "about 370" of 600: the wired sequencer loads within the retrace, into the only bank. The
+// first load, before any picture, has the time that it needs.
+TEST(TableLoaderModule, TheSequencerLoadsWithinTheRetrace) {
+  Machine m(loader(LoaderKind::sequencer, LoadTime::retrace));
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(20, sc_core::SC_MS);
+    EXPECT_FALSE(m.around.retrace(true));  // one bank: nothing to switch
+    expect_tables(m.shader.front(), kFirst);
+    sc_core::wait(1, sc_core::SC_MS);
+    m.around.announce(true, kSecond);
+    sc_core::wait(19, sc_core::SC_MS);
+    expect_tables(m.shader.front(), kFirst);
+    m.around.retrace(false);
+    expect_tables(m.shader.front(), kFirst);
+    m.around.retrace(true);  // 40 ms
+    expect_tables(m.shader.front(), kSecond);
+    sc_core::wait(5, sc_core::SC_MS);
+    m.around.announce(false, kSecond);
+  });
+  stream::simulate();
+  EXPECT_THAT(m.edges.list(),
+              ElementsAre(Edge{368'640'000, true}, Edge{20 * kMillisecond, false}, Edge{21 * kMillisecond, true},
+                          Edge{40 * kMillisecond, false}, Edge{45 * kMillisecond, true}));
+  EXPECT_NEAR(m.loader.longest_load_seconds(), 368.64e-6, 1e-12);
+  EXPECT_EQ(m.loader.occupancy(0, 60 * kMillisecond).busy, 6144U);
+  EXPECT_EQ(m.loader.occupancy(1, 60 * kMillisecond).busy, 0U);  // levels do not depend on where the light stands
+}
+
+TEST(TableLoaderModule, RefusesALoadThatDoesNotFitTheRetrace) {
+  Machine m(loader(LoaderKind::mc68000, LoadTime::retrace));
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(20, sc_core::SC_MS);
+    m.around.retrace(true);
+    m.around.announce(true, kSecond);
+  });
+  try {
+    stream::simulate();
+    FAIL() << "19.968 ms in a retrace of 600 us";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.diagnostics().size(), 1U);
+    EXPECT_EQ(error.diagnostics()[0].key, "loader.when");
+    EXPECT_EQ(error.diagnostics()[0].message,
+              "the tables that change with every frame take 19968 us to load, and the vertical retrace has 600 us; a "
+              "faster loader, or loader.when = \"frame\", would do");
+  }
+}
+
+}  // namespace
+}  // namespace rastertlm::shading
