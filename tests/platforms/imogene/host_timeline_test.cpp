@@ -2,6 +2,9 @@
 // here from counted operations, message sizes and words alone, on the T800-20 of the default machine: 20 MHz, 40 / 3
 // cycles a floating-point operation, 19 + 23 / 2 cycles a byte on a link, store and forward, 3 cycles a word on the
 // bus.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <sstream>
 
 #include "modules/host/computation.h"
@@ -79,9 +82,8 @@ class Units {
     const imogene::Machine& machine = inputs.content->machine;
     const auto columns = static_cast<std::size_t>(machine.video.columns);
     const auto lines = static_cast<std::size_t>(machine.video.lines);
-    for (std::size_t i = 0; i < scene_.objects.size(); ++i)
-      resident_.objects.push_back(
-          {&scene_.objects[i].mesh, scene_.objects[i].two_sided, !scene_.objects[i].animation.empty()});
+    for (const scene::Object& object : scene_.objects)
+      resident_.objects.push_back({&object.mesh, object.two_sided, !object.animation.empty()});
     resident_.pose = [this, columns, lines](std::int64_t frame) { return scene::pose(scene_, frame, columns, lines); };
     const host::MachineFormat format{
         {static_cast<int>(machine.object_processor.word_bits), columns, lines, machine.object_processor.edges},
@@ -184,6 +186,8 @@ class HostTimelineTest : public SimulationTest, public testing::WithParamInterfa
     ASSERT_EQ(updates.size(), GetParam().parents.size());
     Units units(inputs);
 
+    // The first update is the initial load. The next one starts when a frame is displayed, for the video frame that
+    // follows.
     std::uint64_t displayed = 0;       // at which the update in hand shows
     std::uint64_t slowest_cycles = 0;  // of those after the first picture
     std::int64_t animation_frame = 0;
@@ -191,51 +195,59 @@ class HostTimelineTest : public SimulationTest, public testing::WithParamInterfa
       SCOPED_TRACE("update " + std::to_string(i));
       const UpdateWork work = units.update(animation_frame, i == 0);
       const std::vector<std::uint64_t> done = timeline(work, GetParam().parents);
-      for (std::size_t k = 0; k < done.size() && i < updates[k].size(); ++k) {
-        const Update& update = updates[k][i];
-        EXPECT_EQ(update.animation_frame, animation_frame);
-        EXPECT_EQ(update.flops, work.units[k].flops()) << "unit " << k;
-        EXPECT_EQ(update.words, work.units[k].words) << "unit " << k;
-        EXPECT_EQ(update.computing, arithmetic(work.units[k].first_flops) + arithmetic(work.units[k].second_flops));
-        EXPECT_EQ(update.writing, 3 * work.units[k].words);
-        EXPECT_EQ(update.cycles, done[k]) << "unit " << k;
-        if (i > 0) slowest_cycles = std::max(slowest_cycles, done[k]);
-      }
-      const std::uint64_t takes = video_frames(*std::max_element(done.begin(), done.end()));
-      // The first update is the initial load; the frames after it start when the one before is shown, for the video
-      // frame that follows.
-      if (i == 0)
-        EXPECT_EQ(simulated.result.answer.initial_load_frames, takes);
-      else
-        expect_late(simulated, displayed, displayed + takes);
-      if (i > 0) displayed += takes;
-      if (displayed < kFrames) {
-        const run::FrameFigures& frame = simulated.result.frames[displayed];
-        EXPECT_EQ(frame.animation_frame, animation_frame);
-        std::uint64_t words = 0;
-        std::uint64_t flops = 0;
-        for (const UnitWork& unit : work.units) {
-          words += unit.words;
-          flops += unit.flops();
+      for (std::size_t k = 0; k < done.size(); ++k)
+        if (i < updates[k].size()) {
+          SCOPED_TRACE("unit " + std::to_string(k));
+          EXPECT_EQ(updates[k][i].animation_frame, animation_frame);
+          expect_update(updates[k][i], work.units[k], done[k]);
+          if (i > 0) slowest_cycles = std::max(slowest_cycles, done[k]);
         }
-        EXPECT_EQ(frame.words_sent, words);
-        EXPECT_EQ(frame.host_flops, flops);
+      const std::uint64_t takes = video_frames(*std::max_element(done.begin(), done.end()));
+      if (i == 0) {
+        EXPECT_EQ(simulated.result.answer.initial_load_frames, takes);
+      } else {
+        expect_late(simulated, displayed, displayed + takes);
+        displayed += takes;
       }
+      if (displayed < kFrames) expect_shown(simulated.result.frames[displayed], animation_frame, work);
       animation_frame = static_cast<std::int64_t>(displayed) + 1;
     }
     ASSERT_GE(displayed + video_frames(slowest_cycles), kFrames) << "not all frames were looked at";
+    expect_answer(simulated.result, slowest_cycles);
+  }
 
+  static void expect_update(const Update& update, const UnitWork& work, std::uint64_t cycles) {
+    EXPECT_EQ(update.flops, work.flops());
+    EXPECT_EQ(update.words, work.words);
+    EXPECT_EQ(update.computing, arithmetic(work.first_flops) + arithmetic(work.second_flops));
+    EXPECT_EQ(update.writing, 3 * work.words);
+    EXPECT_EQ(update.cycles, cycles);
+  }
+
+  static void expect_shown(const run::FrameFigures& frame, std::int64_t animation_frame, const UpdateWork& work) {
+    EXPECT_EQ(frame.animation_frame, animation_frame);
+    std::uint64_t words = 0;
+    std::uint64_t flops = 0;
+    for (const UnitWork& unit : work.units) {
+      words += unit.words;
+      flops += unit.flops();
+    }
+    EXPECT_EQ(frame.words_sent, words);
+    EXPECT_EQ(frame.host_flops, flops);
+  }
+
+  static void expect_answer(const run::Result& result, std::uint64_t slowest_cycles) {
     const std::uint64_t slowest = video_frames(slowest_cycles);
-    EXPECT_NEAR(simulated.result.answer.update_rate_hz, kDisplayHz / static_cast<double>(slowest), 1e-6);
-    EXPECT_EQ(simulated.result.answer.latency_frames, slowest);
-    EXPECT_EQ(simulated.result.answer.sustained, slowest == 1);
-    const run::Budget& budget = named(simulated.result.budgets, "host.update");
+    EXPECT_NEAR(result.answer.update_rate_hz, kDisplayHz / static_cast<double>(slowest), 1e-6);
+    EXPECT_EQ(result.answer.latency_frames, slowest);
+    EXPECT_EQ(result.answer.sustained, slowest == 1);
+    const run::Budget& budget = named(result.budgets, "host.update");
     EXPECT_DOUBLE_EQ(budget.used, static_cast<double>(slowest_cycles));
     EXPECT_EQ(budget.available, 399'999);  // of 50 ns, whole in 19.99998 ms
     if (GetParam().late != 0) {
       EXPECT_EQ(slowest, GetParam().late);
     }
-    for (const run::FrameFigures& frame : simulated.result.frames) {
+    for (const run::FrameFigures& frame : result.frames) {
       EXPECT_EQ(error_of(frame, "snapped").covered_missing, 0U);
       EXPECT_EQ(error_of(frame, "snapped").covered_extra, 0U);
     }
@@ -289,8 +301,7 @@ class BoundaryTest : public SimulationTest {
   std::string triangles(std::size_t count) const {
     std::string positions;
     for (std::size_t i = 0; i < count; ++i) {
-      const std::string x = std::to_string(i);
-      positions += "[0." + x + ", 0.0, 0.0], [1.0, 0.0, 0." + x + "], [0.0, 0." + x + ", 1.0], ";
+      positions += fmt::format("[0.{0}, 0.0, 0.0], [1.0, 0.0, 0.{0}], [0.0, 0.{0}, 1.0], ", i);
     }
     return written("triangles.toml", scene_of("[[object]]\ntype = \"triangles\"\ntwo_sided = true\npositions = [" +
                                               positions + "]\n" + kSpin));
@@ -326,64 +337,6 @@ TEST_F(BoundaryTest, OneCycleMoreThanAFrameIsLate) {
     }
     EXPECT_TRUE(found);
   }
-}
-
-// The camera turns: every frame has new tables. 6144 entries of 26 cycles at 3 MHz take 53.2 ms, three frames.
-class LateTablesTest : public SimulationTest {
- protected:
-  static constexpr std::uint64_t kFrames = 7;
-  Simulated turned(std::vector<std::string> set) const {
-    set.insert(set.end(), {"video.columns=64", "video.lines=64"});
-    return show(
-        scene_of(kSphere, std::string(kCamera) +
-                              "[[camera.animation]]\ntype = \"orbit\"\naxis = [0.2, 0.0, 1.0]\ndeg_per_frame = 9.0\n"),
-        {.set = set, .frames = kFrames});
-  }
-};
-
-TEST_F(LateTablesTest, KeepTheOldPictureAndItsTables) {
-  const Simulated simulated = turned({"loader.dot_clock_mhz=3.0"});
-  constexpr std::uint64_t kLate = 3;
-  EXPECT_NEAR(simulated.result.answer.update_rate_hz, kDisplayHz / kLate, 1e-6);
-  EXPECT_FALSE(simulated.result.answer.sustained);
-  EXPECT_EQ(simulated.result.answer.bottleneck.unit, "table loader");
-  EXPECT_NEAR(named(simulated.result.budgets, "tables.update").used, 6144 * 26 / 3.0, 1e-3);
-  for (std::size_t k = 1; k < kFrames; ++k)
-    EXPECT_EQ(same_picture(simulated.shown[k], simulated.shown[k - 1]), k % kLate != 0) << "frame " << k;
-  expect_exact(simulated, 5);
-}
-
-// In its retrace of 615.66 us a sequencer loads 6144 entries of 60 ns, and a 68000 does not.
-TEST_F(LateTablesTest, OfOneBankAreLoadedInTheRetraceOrRefused) {
-  const Simulated banks = turned({});
-  const Simulated simulated = turned({"loader.kind=sequencer", "loader.when=retrace"});
-  for (std::size_t k = 0; k < kFrames; ++k)
-    EXPECT_TRUE(same_picture(simulated.shown[k], banks.shown[k])) << "frame " << k;
-  EXPECT_NEAR(named(simulated.result.budgets, "tables.update").used, 6144 * 0.06, 1e-6);
-  EXPECT_TRUE(simulated.result.answer.sustained);
-  const run::UnitFigures& engine = named(simulated.result.units, "dot product loader");
-  EXPECT_EQ(engine.busy, (kFrames - 1) * 6144);
-  try {
-    turned({"loader.when=retrace"});
-    FAIL() << "19,968 us do not fit";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("19968 us"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("loader.when"), std::string::npos) << error.what();
-  }
-}
-
-// 16 materials of 1024 entries of 18.5 cycles at 4 MHz take 75.8 ms, the two of the scene 9.5 ms, the one that is used
-// 4.7 ms; dot products 20.0 ms.
-TEST_F(LateTablesTest, FirstLoadIsOfTheMaterialsThatAreUsedOrOfAllOfTheMachine) {
-  const std::string scene = scene_of(std::string(kSphere) + kSpin);
-  const std::vector<std::string> slow{"video.columns=64", "video.lines=64", "loader.diffuse_clock_mhz=4.0"};
-  const Simulated used = show(scene, {.set = slow, .frames = kFrames});
-  std::vector<std::string> slow_all = slow;
-  slow_all.emplace_back("loader.materials=all");
-  const Simulated all = show(scene, {.set = slow_all, .frames = kFrames});
-  EXPECT_EQ(used.result.answer.initial_load_frames, 1U);
-  EXPECT_EQ(all.result.answer.initial_load_frames, 4U);
-  for (std::size_t k = 0; k < kFrames; ++k) EXPECT_TRUE(same_picture(used.shown[k], all.shown[k])) << "frame " << k;
 }
 
 }  // namespace

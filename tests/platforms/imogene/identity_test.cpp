@@ -41,13 +41,13 @@ positions = [[-300.0, 5.0, -40.0], [200.0, 4.0, -50.0], [20.0, 6.0, 400.0]]
 
   // The files of a run of two frames on a host that is in time on any number of boards.
   Files render(const std::vector<std::string>& set, const std::vector<std::string>& flags = {}) const {
-    std::vector<std::string> arguments{
-        "render", RASTERTLM_SOURCE_DIR "/configs/machines/imogene.toml", "scene.toml", "--out", "out", "--frames", "2"};
+    const std::string machine = RASTERTLM_SOURCE_DIR "/configs/machines/imogene.toml";
+    std::vector<std::string> arguments{"render", machine, "scene.toml", "--out", "out", "--frames", "2"};
     std::vector<std::string> all{"video.columns=160", "video.lines=128", "host.sustained_mflops=50.0",
                                  "host.processors_per_unit=256"};
     all.insert(all.end(), set.begin(), set.end());
     for (const std::string& one : all) {
-      arguments.push_back("--set");
+      arguments.emplace_back("--set");
       arguments.push_back(one);
     }
     arguments.insert(arguments.end(), flags.begin(), flags.end());

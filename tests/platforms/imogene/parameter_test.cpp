@@ -114,8 +114,8 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
     };
   }
 
-  static std::map<std::string, Change> scene_changes() {
-    std::map<std::string, Change> changes{
+  static std::map<std::string, Change> world_changes() {
+    return {
         {"background", {.change = {"background=[9.0, 0.0, 0.0]"}}},
         {"ambient_light", {.change = {"ambient_light=[0.5, 1.0, 1.0]"}}},
         {"lighting.model", {.change = {"lighting.model=phong"}, .effect = Effect::refused}},
@@ -139,6 +139,11 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
         {"material[0].diffuse", {.change = {"material[0].diffuse=0.4"}}},
         {"material[0].specular", {.change = {"material[0].specular=0.3"}}},
         {"material[0].exponent", {.change = {"material[0].exponent=50"}}},
+    };
+  }
+
+  static std::map<std::string, Change> object_changes() {
+    return {
         {"object[0].type", {.scene = "plain sphere", .change = {"object[0].type=teapot"}}},
         {"object[0].material", {.change = {"object[0].material=slate"}}},
         {"object[0].translate", {.change = {"object[0].translate=[0.3, 0.0, 0.0]"}}},
@@ -159,6 +164,10 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
           .change = {"object[0].normals=[[-0.5, -1.0, 0.0], [0.5, -1.0, 0.0], [0.0, -1.0, 0.5]]"}}},
         {"object[0].indices", {.scene = "triangles", .change = {"object[0].indices=[[0, 1, 2], [0, 2, 1]]"}}},
     };
+  }
+
+  static std::map<std::string, Change> animation_changes() {
+    std::map<std::string, Change> changes;
     for (const std::string owner : {"object", "camera"}) {
       const std::string path = owner + (owner == "camera" ? ".animation[0]." : "[0].animation[0].");
       const std::string turning = owner == "camera" ? "camera turning" : "sphere";
@@ -254,13 +263,16 @@ TEST_F(ParameterTest, OfTheMachineMovesSomething) {
 
 TEST_F(ParameterTest, HostPresetMovesSomethingIfItIsAnother) {
   const std::string usual = std::get<std::string>(paths_of("machine imogene").at(kPreset).default_value);
+  const std::string set = kPreset + '=';
   for (const std::string& name : config::Presets::compiled_in().names("host"))
-    if (name != usual) expect_effect(kPreset, {.change = {kPreset + '=' + name}});
-  EXPECT_EQ(observed("turning", {}), observed("turning", {kPreset + "=\"\""}));
+    if (name != usual) expect_effect(kPreset, {.change = {set + name}});
+  EXPECT_EQ(observed("turning", {}), observed("turning", {set + "\"\""}));
 }
 
 TEST_F(ParameterTest, OfTheSceneMovesSomething) {
-  const std::map<std::string, Change> changes = scene_changes();
+  std::map<std::string, Change> changes = world_changes();
+  changes.merge(object_changes());
+  changes.merge(animation_changes());
   const std::map<std::string, Parameter> paths = paths_of("scene");
   for (const auto& [path, change] : changes) {
     EXPECT_TRUE(paths.contains(path)) << path << " is no parameter";
