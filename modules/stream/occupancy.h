@@ -1,6 +1,7 @@
 // Where a unit's cycles went. Every cycle is one of the four, and their sum is checked against the cycles that passed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -52,7 +53,8 @@ class OccupancyMeter {
 
  private:
   void settle(std::uint64_t picoseconds) {
-    const std::uint64_t now = clock_.cycles_at(picoseconds).count();
+    // The end of a run may be rounded to a picosecond before the last transition: no time has passed then.
+    const std::uint64_t now = std::max(clock_.cycles_at(picoseconds).count(), since_);
     const std::uint64_t passed = now - since_;
     since_ = now;
     occupancy_.cycles += passed;

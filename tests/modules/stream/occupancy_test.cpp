@@ -72,6 +72,16 @@ TEST(OccupancyMeter, MayBeClosedAgainLater) {
   EXPECT_EQ(meter.close(7'000'000).cycles, 7U);
 }
 
+// The end of a run is computed from whole frames, and may be a picosecond before what happened at it.
+TEST(OccupancyMeter, AnEndAPicosecondEarlyTakesNothingBack) {
+  OccupancyMeter meter(Clock::from_frequency_hz("host", 1'000'000));
+  meter.enter(Activity::busy, 0);
+  meter.enter(Activity::idle, 2'000'001);
+  EXPECT_EQ(meter.close(2'000'000).cycles, 3U);
+  EXPECT_EQ(meter.close(2'000'000).busy, 3U);
+  EXPECT_EQ(meter.close(2'000'000).idle, 0U);
+}
+
 TEST(Occupancy, SaysWhatDoesNotAddUp) {
   Occupancy occupancy;
   occupancy.cycles = 10;
