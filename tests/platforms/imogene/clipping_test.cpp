@@ -249,6 +249,30 @@ translate = [0.0, 1.0, 0.5]
   EXPECT_EQ(grids, (std::vector<int>{kFine, kFine, kGuarded, kGuarded, kFine, kFine}));
 }
 
+// At first the near plane cuts it; then it is aside and farther away, and nothing may be left where its pieces were.
+TEST_F(MotionTest, ParksTheProcessorsOfPiecesThatAreNoMore) {
+  const std::string scene = scene_of(R"([[object]]
+type = "uv_sphere"
+two_sided = true
+[[object.animation]]
+type = "keys"
+[[object.animation.key]]
+frame = 0
+translate = [-1.1, 0.0, 0.0]
+[[object.animation.key]]
+frame = 2
+translate = [1.4, 2.0, 0.0]
+)",
+                                     std::string(kCamera) + "near = 9.3\n");
+  const Simulated simulated = show(scene, {.set = kSmall, .frames = 3});
+  EXPECT_GT(simulated.result.frames.at(0).pieces, 3U);
+  EXPECT_EQ(simulated.result.frames.at(2).pieces, 0U);
+  expect_exact(simulated, kLargestLevel);
+  const frame::Frame& last = simulated.shown.at(2);
+  for (std::size_t y = 0; y < last.lines; ++y)
+    for (std::size_t x = 0; x < last.columns / 2; ++x) ASSERT_EQ(last.object[y * last.columns + x], 0U);
+}
+
 TEST_F(MotionTest, SendsOnlyWhatMoved) {
   const std::string still = R"([[object]]
 type = "uv_sphere"

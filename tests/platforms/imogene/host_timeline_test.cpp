@@ -166,6 +166,8 @@ struct Host {
   std::uint64_t late;  // video frames an update takes; 0: not said
 };
 
+std::ostream& operator<<(std::ostream& out, const Host& host) { return out << host.name; }
+
 class HostTimelineTest : public SimulationTest, public testing::WithParamInterface<Host> {
  protected:
   static constexpr std::uint64_t kFrames = 9;

@@ -43,6 +43,8 @@ struct Size {
   std::uint64_t processors;  // of each
 };
 
+std::ostream& operator<<(std::ostream& out, const Size& size) { return out << size.units << " x " << size.processors; }
+
 class LatencyTest : public SimulationTest, public testing::WithParamInterface<Size> {
  protected:
   Simulated shown_by(const char* topology, std::uint64_t frames) const {
