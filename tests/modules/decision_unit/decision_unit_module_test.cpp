@@ -158,7 +158,7 @@ TEST(DecisionUnitModule, LinesGoBackToTheirPool) {
       for (Board& board : machine.boards) board.send(line, line % kColumns, 9, 1, 0);
     std::vector<stream::LinePool::Handle> handles;
     for (int i = 0; i < 3; ++i) handles.push_back(machine.pool.acquire());
-    for (const auto& handle : handles) in_use.push_back(handle.get());
+    in_use = {handles[0].get(), handles[1].get(), handles[2].get()};
     for (auto& handle : handles) handle.reset();
     machine.boards[0].send(100, 0, 9, 1, 0);
     machine.boards[1].send(100, 0, 9, 1, 0);

@@ -14,7 +14,7 @@ constexpr std::uint64_t kHeader = 8;
 constexpr std::uint64_t kMatrix = 64;
 constexpr std::uint64_t kLight = 12;
 
-ResidentScene scene(std::vector<bool> moves, bool camera_moves, std::size_t lights) {
+ResidentScene scene(const std::vector<bool>& moves, bool camera_moves, std::size_t lights) {
   ResidentScene resident;
   for (const bool moving : moves) resident.objects.push_back({nullptr, false, moving});
   resident.camera_moves = camera_moves;

@@ -42,6 +42,7 @@ RC_GTEST_PROP(OccupancyMeter, CountsEveryCycleOnce, ()) {
   OccupancyMeter meter(Clock::from_frequency_hz("host", megahertz * 1'000'000));
   const auto times = *rc::gen::container<std::vector<std::uint64_t>>(rc::gen::inRange<std::uint64_t>(0, 3'000'000));
   std::vector<Transition> transitions;
+  transitions.reserve(times.size());
   for (const std::uint64_t time : times)
     transitions.push_back(
         {time, *rc::gen::element(Activity::busy, Activity::starved, Activity::blocked, Activity::idle)});
