@@ -3,10 +3,32 @@
 // the failure on.
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <systemc>
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <pthread.h>
+#include <sanitizer/common_interface_defs.h>
+#endif
+
 namespace rastertlm::stream {
+
+// SystemC tells AddressSanitizer of every switch between the stacks of its processes, but not where the stack of its
+// caller lies. Without that, what is thrown after a simulation leaves marks on that stack, which are then reported.
+inline void know_own_stack() {
+#if defined(__SANITIZE_ADDRESS__)
+  pthread_attr_t attributes;
+  void* bottom = nullptr;
+  std::size_t size = 0;
+  if (pthread_getattr_np(pthread_self(), &attributes) != 0) return;
+  pthread_attr_getstack(&attributes, &bottom, &size);
+  pthread_attr_destroy(&attributes);
+  void* fake_stack = nullptr;
+  __sanitizer_start_switch_fiber(&fake_stack, bottom, size);
+  __sanitizer_finish_switch_fiber(fake_stack, nullptr, nullptr);
+#endif
+}
 
 inline std::exception_ptr& first_failure() {
   static std::exception_ptr failure;
@@ -25,7 +47,9 @@ void run_guarded(const Body& body) {
   }
 }
 
+// Called where sc_start has returned.
 inline void rethrow_failure() {
+  know_own_stack();
   if (first_failure()) std::rethrow_exception(first_failure());
 }
 

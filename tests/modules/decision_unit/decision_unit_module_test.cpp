@@ -157,6 +157,7 @@ TEST(DecisionUnitModule, LinesGoBackToTheirPool) {
     for (std::size_t line = 0; line < 100; ++line)
       for (Board& board : machine.boards) board.send(line, line % kColumns, 9, 1, 0);
     std::vector<stream::LinePool::Handle> handles;
+    handles.reserve(6);
     for (int i = 0; i < 3; ++i) handles.push_back(machine.pool.acquire());
     in_use = {handles[0].get(), handles[1].get(), handles[2].get()};
     for (auto& handle : handles) handle.reset();

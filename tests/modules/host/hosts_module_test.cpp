@@ -118,7 +118,6 @@ TEST(HostsModule, InitialLoadInAChain) {
   EXPECT_EQ(hosts.links[0].bytes(), 276U + 1 + 13);
   EXPECT_EQ(hosts.links[1].bytes(), 276U + 1 + 9);
   EXPECT_EQ(hosts.links[2].bytes(), 276U + 1 + 5);
-  EXPECT_EQ(hosts.links[2].active(), Cycles(twenty_megahertz(276) + twenty_megahertz(1) + twenty_megahertz(5)));
 }
 
 TEST(HostsModule, InitialLoadInATree) {
@@ -181,7 +180,6 @@ TEST(HostsModule, TheNextFrameBeginsAtTheSwap) {
     EXPECT_EQ(occupancy.blocked, 0U);
   }
   ASSERT_EQ(hosts.loader.received.size(), 2U);
-  EXPECT_TRUE(hosts.loader.received[0].initial);
   EXPECT_TRUE(hosts.loader.received[0].changed);
   EXPECT_FALSE(hosts.loader.received[1].changed);
 }

@@ -53,7 +53,6 @@ class StubLoader : public sc_core::sc_module {
  private:
   void receive(shading::LightPayload& payload, sc_core::sc_time&) {
     auto& copy = received.emplace_back();
-    copy.initial = payload.initial;
     copy.changed = payload.changed;
     copy.lights = payload.lights;
   }

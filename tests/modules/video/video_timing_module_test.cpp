@@ -6,9 +6,9 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include <deque>
+#include <stdexcept>
 
 #include "modules/stream/simulated_time.h"
-#include "src/base/errors.h"
 #include "tests/modules/stream/simulation.h"
 
 namespace rastertlm::video {
@@ -188,9 +188,8 @@ TEST(VideoTimingModule, GivesUpOnHostsThatNeverFinish) {
   try {
     stream::simulate();
     FAIL() << "waited for ever";
-  } catch (const ModelError& error) {
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("video_timing"), testing::HasSubstr("50000"),
-                                             testing::HasSubstr("the hosts have not finished a first frame")));
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("the hosts have not finished a first frame"));
   }
   EXPECT_EQ(sc_core::sc_time_stamp().value(), 5 * kFramePs);
 }
