@@ -1,6 +1,7 @@
 // Does every object get the board and slot of the rule, and is what finds no processor refused or counted?
 #include "modules/host/assignment.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -86,9 +87,9 @@ TEST(Assignment, RefusesMoreObjectsThanProcessorsWithBothNumbers) {
   } catch (const InputError& error) {
     ASSERT_EQ(error.diagnostics().size(), 1U);
     EXPECT_EQ(error.diagnostics()[0].key, "host.processors_per_unit");
-    EXPECT_EQ(error.diagnostics()[0].message,
-              "the scene has 1025 objects and the machine 1024 object processors (8 units of 128); more processors, or "
-              "host.overflow = \"drop\", would draw it");
+    EXPECT_THAT(error.diagnostics()[0].message,
+                testing::AllOf(testing::HasSubstr("1025 objects"), testing::HasSubstr("1024 object processors"),
+                               testing::HasSubstr("8 units of 128"), testing::HasSubstr("host.overflow = \"drop\"")));
   }
 }
 
