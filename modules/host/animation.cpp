@@ -29,7 +29,7 @@ FrameWork Animation::frame_work(std::int64_t animation_frame, bool initial) cons
   work.initial = initial;
   work.pose = scene_.pose(animation_frame);
   const bool camera = initial || scene_.camera_moves;
-  work.lights_changed = camera || send_all_;
+  work.lights_changed = camera;
   work.message_bytes = kHeaderBytes;
   if (camera) work.message_bytes += 2 * kMatrixBytes + kLightBytes * work.pose.lights.size();
   work.renew.resize(scene_.objects.size());

@@ -29,6 +29,8 @@ class Animation {
   FrameWork frame_work(std::int64_t animation_frame, bool initial) const;
   // Whether any frame after the first differs from it.
   bool moves() const;
+  // Whether the lights move in eye space.
+  bool lights_change() const { return scene_.camera_moves; }
 
  private:
   const ResidentScene& scene_;

@@ -33,7 +33,8 @@ std::vector<shading::LightArguments> light_arguments(const geometry::Pose& pose)
 
 AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation,
                                          const HostCost& cost, std::size_t children, std::size_t units,
-                                         Overflow overflow, Timeline timeline, std::vector<stream::Link*> links)
+                                         Overflow overflow, Timeline timeline, std::vector<stream::Link*> links,
+                                         InitialLoad initial_load, stream::Link* light_link)
     : sc_module(name),
       down("down", children),
       up("up", children),
@@ -44,6 +45,8 @@ AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, co
       overflow_(overflow),
       timeline_(std::move(timeline)),
       links_(std::move(links)),
+      initial_load_(std::move(initial_load)),
+      light_link_(light_link),
       meter_(cost.clock()) {
   for (auto& socket : up) socket.register_b_transport(this, &AnimationUnitModule::receive);
   SC_HAS_PROCESS(AnimationUnitModule);
@@ -81,13 +84,24 @@ void AnimationUnitModule::announce_frame(std::int64_t animation_frame, bool init
   Message& message = payload_.message;
   message.kind = Message::Kind::frame;
   message.work = work_.get();
-  message.bytes = work_->message_bytes;
-  sc_core::sc_time no_delay;
-  light_payload_.initial = initial;
+  announce_lights();
+  for (std::size_t i = 0; i < down.size(); ++i) {
+    message.bytes = work_->message_bytes + (initial && i < initial_load_.size() ? initial_load_[i] : 0);
+    send(down[i], payload_, cost_, *links_[i]);
+  }
+}
+
+void AnimationUnitModule::announce_lights() {
   light_payload_.changed = work_->lights_changed;
+  light_payload_.will_change = animation_.lights_change();
   light_payload_.lights = light_arguments(work_->pose);
-  loader->b_transport(light_payload_, no_delay);
-  for (std::size_t i = 0; i < down.size(); ++i) send(down[i], payload_, cost_, *links_[i]);
+  sc_core::sc_time delay;
+  if (light_link_ != nullptr && light_payload_.changed) {
+    const std::uint64_t bytes = shading::light_message_bytes(light_payload_.lights.size());
+    light_link_->record(bytes, Cycles(bytes));
+    delay = stream::to_time(cost_.clock(), cost_.message(bytes));
+  }
+  loader->b_transport(light_payload_, delay);
 }
 
 void AnimationUnitModule::settle_plan() {
@@ -103,8 +117,8 @@ void AnimationUnitModule::settle_plan() {
                                     "object processors; more processors, or "
                                     "host.overflow = \"drop\", would draw it",
                                     work_->animation_frame, homeless_.size())});
-    pieces_dropped_ += homeless_.size();
   }
+  pieces_dropped_ = homeless_.size();
   Message& message = payload_.message;
   message.kind = Message::Kind::plan;
   message.guarded = guarded_;

@@ -19,6 +19,9 @@ class AnimationUnitModule : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<AnimationUnitModule, stream::kNoBusWidth, shading::LightProtocol>
       loader;  // the lights, to the table loader
 
+  // Meshes that cross the links once, with the first frame: bytes for the units behind each link.
+  using InitialLoad = std::vector<std::uint64_t>;
+
   struct Timeline {
     const sc_core::sc_event* swapped;                // at a retrace that showed the last frame
     std::function<std::uint64_t()> displayed_frame;  // whose retrace that was
@@ -26,18 +29,20 @@ class AnimationUnitModule : public sc_core::sc_module {
 
   AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation, const HostCost& cost,
                       std::size_t children, std::size_t units, Overflow overflow, Timeline timeline,
-                      std::vector<stream::Link*> links);
+                      std::vector<stream::Link*> links, InitialLoad initial_load = {},
+                      stream::Link* light_link = nullptr);
 
   // The frame that the machine shows after the next swap.
   const FrameWork& work() const { return *work_; }
   bool guarded() const { return guarded_; }
-  std::uint64_t pieces_dropped() const { return pieces_dropped_; }
+  std::uint64_t pieces_dropped() const { return pieces_dropped_; }  // of the frame of work()
   const stream::Occupancy& occupancy(std::uint64_t end_ps) { return meter_.close(end_ps); }
 
  private:
   void run_guarded();
   void run();
   void announce_frame(std::int64_t animation_frame, bool initial);
+  void announce_lights();
   void settle_plan();
   void receive(MessagePayload& payload, sc_core::sc_time& delay);
 
@@ -47,6 +52,8 @@ class AnimationUnitModule : public sc_core::sc_module {
   Overflow overflow_;
   Timeline timeline_;
   std::vector<stream::Link*> links_;
+  InitialLoad initial_load_;
+  stream::Link* light_link_;  // to the table loader; none: its messages take no time
   std::unique_ptr<FrameWork> work_;
   MessagePayload payload_;
   shading::LightPayload light_payload_;

@@ -13,11 +13,12 @@ SlotMap assign_objects(std::size_t objects, const HostParameters& parameters) {
   const auto slots = static_cast<std::size_t>(parameters.processors_per_unit);
   const std::size_t processors = boards * slots;
   if (objects > processors && parameters.overflow == Overflow::error)
-    throw InputError({"", 0, "host.processors_per_unit",
-                      fmt::format("the scene has {} objects and the machine {} object processors ({} units of {}); "
-                                  "more processors, or host.overflow = \"drop\", "
-                                  "would draw it",
-                                  objects, processors, boards, slots)});
+    throw InputError(
+        {"", 0, "host.processors_per_unit",
+         fmt::format("the scene has {} objects (triangles) and the machine {} object processors ({} units of {}); "
+                     "more processors, or host.overflow = \"drop\", "
+                     "would draw it",
+                     objects, processors, boards, slots)});
   const std::size_t placed = std::min(objects, processors);
   SlotMap map;
   map.boards.resize(boards);

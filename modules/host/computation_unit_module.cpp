@@ -106,7 +106,7 @@ void ComputationUnitModule::write_all(const std::vector<Load>& loads) {
   std::uint64_t words = 0;
   for (const Load& load : loads) words += write(load);
   const Cycles cycles = cost_.bus(words);
-  links_.bus->record(words, cycles);
+  links_.bus->record(words, Cycles(words));  // its clock moves a word a cycle
   update_.words += words;
   update_.writing += cycles;
   words_sent_ += words;
@@ -140,10 +140,15 @@ Message ComputationUnitModule::take(Message::Kind kind) {
   return std::move(letter.message);
 }
 
-void ComputationUnitModule::forward(const Message& message) {
+void ComputationUnitModule::forward(Message message) {
   MessagePayload payload;
-  payload.message = message;
-  for (std::size_t i = 0; i < down.size(); ++i) send(down[i], payload, cost_, *links_.below[i]);
+  payload.message = std::move(message);
+  const Message& sent = payload.message;
+  const bool with_meshes = sent.kind == Message::Kind::frame && sent.work->initial && !links_.resident_below.empty();
+  for (std::size_t i = 0; i < down.size(); ++i) {
+    if (with_meshes) payload.message.bytes = sent.work->message_bytes + links_.resident_below[i];
+    send(down[i], payload, cost_, *links_.below[i]);
+  }
 }
 
 // One message up: the own survey with those of the units below, when they have come.

@@ -28,6 +28,7 @@ class ComputationUnitModule : public sc_core::sc_module {
     stream::Link* above;
     std::vector<stream::Link*> below;
     stream::Link* bus;
+    std::vector<std::uint64_t> resident_below = {};  // bytes of meshes for the units behind each link below
   };
 
   ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit, Computation& computation,
@@ -54,7 +55,7 @@ class ComputationUnitModule : public sc_core::sc_module {
   void run();
   Cycles cycles_since_swap() const;
   Message take(Message::Kind kind);
-  void forward(const Message& message);
+  void forward(Message message);
   void report(Survey own);
   void work_on_frame(const FrameWork& work);
   void spend_computing(const geometry::OperationCounts& before);

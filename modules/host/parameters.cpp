@@ -12,7 +12,7 @@ void HostParameters::declare(parameter::Table& table) {
                 .description = "What an operation costs: every floating-point operation at the sustained rate.",
                 .moves = "answer.update_rate_hz",
                 .exempt = true});
-  table.integer("host.computation_units", computation_units, {1, 65536},
+  table.integer("host.computation_units", computation_units, {1, 16384},
                 {.unit = "units",
                  .description = "Computation units, each with an object board of its own.",
                  .moves = "answer.update_rate_hz, modelled.object_processors"});
@@ -21,9 +21,9 @@ void HostParameters::declare(parameter::Table& table) {
                  .description = "Object processors on a board.",
                  .moves = "modelled.object_processors, decision unit latency"});
   table.integer(
-      "host.clock_hz", clock_hz, {1, 100'000'000'000},
+      "host.clock_hz", clock_hz, {1000, 100'000'000'000},
       {.unit = "Hz", .description = "Clock of the host processors.", .moves = "units[].clock_hz, budgets host"});
-  table.real("host.sustained_mflops", sustained_mflops, {0.0, 1e9, true},
+  table.real("host.sustained_mflops", sustained_mflops, {0.001, 1e9},
              {.unit = "Mflop/s",
               .description = "Sustained floating-point rate, loads and integer work included.",
               .moves = "answer.update_rate_hz"});
@@ -39,7 +39,7 @@ void HostParameters::declare(parameter::Table& table) {
                 .description =
                     "How the animation unit reaches the computation units: store and forward along a tree or a chain.",
                 .moves = "units[] starved"});
-  table.real("host.link_mbit_per_s", link_mbit_per_s, {0.0, 1e9, true},
+  table.real("host.link_mbit_per_s", link_mbit_per_s, {0.001, 1e6},
              {.unit = "Mbit/s", .description = "Line rate of a serial link.", .moves = "links[] host links"});
   table.real("host.link_bits_per_byte", link_bits_per_byte, {8.0, 1000.0},
              {.unit = "bits",

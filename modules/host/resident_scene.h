@@ -17,6 +17,9 @@ struct ResidentObject {
   bool moves = false;
 };
 
+// A triangle as a host processor holds it: three corners of position and normal, and a material, as 32-bit words.
+inline constexpr std::uint64_t kResidentTriangleBytes = 4 * (3 * (3 + 3) + 1);
+
 struct ResidentScene {
   std::vector<ResidentObject> objects;
   bool camera_moves = false;

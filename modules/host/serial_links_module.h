@@ -20,11 +20,12 @@ using MessageInitiator = tlm_utils::simple_initiator_socket<Owner, stream::kNoBu
 template <class Owner>
 using MessageTarget = tlm_utils::simple_target_socket<Owner, stream::kNoBusWidth, HostProtocol>;
 
-// Sends a message with the delay of its bytes, and records them on `link`, whose words are bytes.
+// Sends a message with the delay of its set-up and bytes, and records the bytes on `link`, whose words and cycles are
+// bytes.
 template <class Socket>
 void send(Socket& socket, MessagePayload& payload, const HostCost& cost, stream::Link& link) {
   const Cycles cycles = cost.message(payload.message.bytes);
-  link.record(payload.message.bytes, cycles);
+  link.record(payload.message.bytes, Cycles(payload.message.bytes));
   sc_core::sc_time delay = stream::to_time(cost.clock(), cycles);
   socket->b_transport(payload, delay);
 }

@@ -12,10 +12,13 @@
 namespace rastertlm::shading {
 
 struct LightPayload : tlm::tlm_generic_payload {
-  bool initial = false;                // the first frame: materials are new too
   bool changed = false;                // false: the tables stay as they are
+  bool will_change = false;            // later frames bring other lights: a second bank will be used
   std::vector<LightArguments> lights;  // all of the scene
 };
+
+// A header, and for each light its vector, its highlight vector and its intensity as 32-bit words.
+constexpr std::uint64_t light_message_bytes(std::size_t lights) { return 8 + 4 * 9 * lights; }
 
 using LightProtocol = stream::Protocol<LightPayload>;
 

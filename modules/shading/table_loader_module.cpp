@@ -62,11 +62,14 @@ void TableLoaderModule::run() {
   for (;; first_ = false) {
     while (!pending_) wait(received_);
     pending_ = false;
+    const double message = static_cast<double>(arrives_ps_ - picoseconds_now()) * 1e-12;
+    stream::wait_until(arrives_ps_);
     if (changed_) {
       const double longest = plan();
-      if (first_ || parameters_.when == LoadTime::frame) {
-        write_all();
-        occupy_engines();
+      if (!first_) longest_load_seconds_ = std::max(longest_load_seconds_, longest + (at_retrace() ? 0.0 : message));
+      if (first_ || !at_retrace()) {
+        load();
+        if (first_ && will_change_ && !at_retrace()) load_other_bank();
       } else if (to_picoseconds(longest) > retrace_ps_) {
         throw InputError({"", 0, "loader.when",
                           fmt::format("the tables that change with every frame take {:.6g} us to load, and the "
@@ -76,7 +79,6 @@ void TableLoaderModule::run() {
       } else {
         load_at_retrace_ = true;
       }
-      if (!first_) longest_load_seconds_ = std::max(longest_load_seconds_, longest);
     }
     ready.write(true);
     wait(swapped_);
@@ -85,6 +87,19 @@ void TableLoaderModule::run() {
     ready.write(false);
     if (std::exchange(loaded_at_retrace_, false)) occupy_engines();
   }
+}
+
+// Into the bank that is not in use, in the time that the engines need.
+void TableLoaderModule::load() {
+  write_all();
+  occupy_engines();
+}
+
+// Before the first picture both banks are filled, so that a frame's load is what the frame changes.
+void TableLoaderModule::load_other_bank() {
+  shader_.swap_banks();
+  plan();
+  load();
 }
 
 // Every engine is busy from now on for as long as its slowest loader.
@@ -120,9 +135,15 @@ double TableLoaderModule::plan() {
 }
 
 void TableLoaderModule::write_all() {
+  std::array<std::uint64_t, kEngines> stored{};
   for (const TableJob& job : program_.jobs) {
     write_job(job);
+    stored[engine_of(job.table.kind)] += words_.size();
     shader_.back_record().mark(job);
+  }
+  for (std::size_t i = 0; i < kEngines; ++i) {
+    const std::uint64_t steps = stored[i] / engines_[i].loaders;
+    engines_[i].link->record(steps, Cycles(steps));
   }
   for (const RegisterWrite& value : program_.registers) {
     words_.assign(1, value.value);
@@ -140,10 +161,6 @@ void TableLoaderModule::write_job(const TableJob& job) {
     fill(path.moves, path.scale, std::span<std::uint8_t>(levels_));
     words_.assign(levels_.begin(), levels_.end());
   }
-  Engine& engine = engines_[engine_of(job.table.kind)];
-  const double seconds = job_seconds(parameters_, job);
-  engine.link->record(words_.size(),
-                      Cycles(static_cast<std::uint64_t>(std::llround(seconds * engine.link->clock().frequency_hz()))));
   write_words(job.table, job.first_entry);
 }
 
@@ -160,8 +177,10 @@ void TableLoaderModule::write_words(const TableId& table, std::uint32_t first_en
   words_sent_ += words_.size();
 }
 
-void TableLoaderModule::receive(LightPayload& payload, sc_core::sc_time&) {
+void TableLoaderModule::receive(LightPayload& payload, sc_core::sc_time& delay) {
   changed_ = payload.changed;
+  will_change_ = payload.will_change;
+  arrives_ps_ = picoseconds_now() + delay.value();
   if (changed_)
     for (std::size_t i = 0; i < payload.lights.size(); ++i) shader_.set_light(i, payload.lights[i]);
   pending_ = true;
@@ -172,7 +191,7 @@ void TableLoaderModule::receive(LightPayload& payload, sc_core::sc_time&) {
 void TableLoaderModule::synchronise(stream::SyncPayload& payload, sc_core::sc_time&) {
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
   if (payload.kind != stream::SyncPayload::Kind::retrace || !payload.copy) return;
-  payload.switch_tables = changed_ && parameters_.when == LoadTime::frame;
+  payload.switch_tables = changed_ && !at_retrace();
   if (!load_at_retrace_) return;
   load_at_retrace_ = false;
   loaded_at_retrace_ = true;

@@ -26,7 +26,8 @@ class TableLoaderModule : public sc_core::sc_module {
 
   // One kind of table with its loaders: dot products, diffuse, specular.
   struct Engine {
-    stream::Link* link;
+    stream::Link* link;  // of all loaders of the kind together; a word is what each of them stores in one step
+    std::uint64_t loaders;
     stream::OccupancyMeter meter;
   };
   static constexpr std::size_t kEngines = 3;
@@ -37,7 +38,7 @@ class TableLoaderModule : public sc_core::sc_module {
                     std::array<Engine, kEngines> engines);
 
   std::uint64_t words_sent() const { return words_sent_; }
-  // The longest load after the first, of each engine, in seconds.
+  // From the retrace that started it to its last word, the longest load after the first picture: the slowest loader's.
   double longest_load_seconds() const { return longest_load_seconds_; }
   const stream::Occupancy& occupancy(std::size_t engine, std::uint64_t end_ps) {
     return engines_[engine].meter.close(end_ps);
@@ -50,7 +51,10 @@ class TableLoaderModule : public sc_core::sc_module {
   void receive(LightPayload& payload, sc_core::sc_time& delay);
   void synchronise(stream::SyncPayload& payload, sc_core::sc_time& delay);
   double plan();
+  void load();
+  void load_other_bank();
   void occupy_engines();
+  bool at_retrace() const { return parameters_.when == LoadTime::retrace; }
   void write_all();
   void write_job(const TableJob& job);
   void write_words(const TableId& table, std::uint32_t first_entry);
@@ -64,6 +68,8 @@ class TableLoaderModule : public sc_core::sc_module {
 
   bool pending_ = false;  // lights have been received and not yet looked at
   bool changed_ = false;
+  bool will_change_ = false;
+  std::uint64_t arrives_ps_ = 0;
   bool first_ = true;
   bool load_at_retrace_ = false;    // the next retrace that copies loads the program
   bool loaded_at_retrace_ = false;  // it has just done so

@@ -55,7 +55,7 @@ void VideoTimingModule::run_guarded() {
 void VideoTimingModule::run() {
   for (std::uint64_t video_frame = 0; displayed_ < frames_; ++video_frame) {
     if (!showing_ && video_frame > patience_)
-      throw ModelError(basename(), timing_.frame.count() * video_frame, "the hosts have not finished a first frame");
+      throw InputError({"", 0, "host", "the hosts have not finished a first frame after " + std::to_string(patience_) + " video frames"});
     wait(sc_core::SC_ZERO_TIME);  // who finishes at this very instant is in time
     const bool copy = everything_ready();
     if (copy) {
@@ -77,7 +77,8 @@ void VideoTimingModule::run() {
     const std::uint64_t end = timing_.clock.picoseconds(timing_.frame * (video_frame + 1));
     wait(stream::to_time(end - stream::picoseconds_now()));
   }
-  sc_core::sc_stop();
+  finished_ = true;
+  sc_core::sc_pause();
 }
 
 }  // namespace rastertlm::video

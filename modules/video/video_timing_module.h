@@ -33,7 +33,8 @@ class VideoTimingModule : public sc_core::sc_module {
   std::uint64_t frames_before_first() const { return frames_before_first_; }
   // The displayed frame that is being shown; before the first picture, 0.
   std::uint64_t displayed_frame() const { return displayed_; }
-  bool showing() const { return showing_; }
+  // The last frame has been shown to its end.
+  bool finished() const { return finished_; }
 
  private:
   void run_guarded();
@@ -52,6 +53,7 @@ class VideoTimingModule : public sc_core::sc_module {
   std::uint64_t first_frame_ps_ = 0;
   std::uint64_t frames_before_first_ = 0;
   bool showing_ = false;
+  bool finished_ = false;
 };
 
 }  // namespace rastertlm::video

@@ -1,12 +1,14 @@
 #include "platforms/imogene/imogene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
 #include <set>
 #include <utility>
 
+#include "modules/shading/loader_budget.h"
 #include "modules/stream/failure.h"
 #include "modules/stream/simulated_time.h"
 
@@ -14,7 +16,7 @@ namespace rastertlm::imogene {
 namespace {
 
 // A machine that has shown nothing after so many frames never will.
-constexpr std::uint64_t kPatienceFrames = 1'000'000;
+constexpr std::uint64_t kPatienceFrames = 100'000;
 
 std::vector<std::size_t> loaded_materials(const Machine& machine, const scene::Scene& scene) {
   if (machine.loader.materials == shading::LoadedMaterials::all) {
@@ -38,6 +40,18 @@ host::ResidentScene resident_scene(const Machine& machine, const scene::Scene& s
     return scene::pose(scene, frame, columns, lines);
   };
   return resident;
+}
+
+// The meshes of every unit and of those that it feeds, which cross the link to it once. Units feed units with higher
+// numbers.
+std::vector<std::uint64_t> subtree_mesh_bytes(const host::SlotMap& slots, const host::HostParameters& host) {
+  std::vector<std::uint64_t> bytes;
+  for (const auto& owners : slots.boards) bytes.push_back(host::kResidentTriangleBytes * owners.size());
+  for (std::size_t k = bytes.size(); k-- > 0;)
+    for (const std::size_t child :
+         host::children(k + 1, bytes.size(), host.link_topology, static_cast<std::size_t>(host.links)))
+      bytes[k] += bytes[child];
+  return bytes;
 }
 
 std::size_t banks(const Machine& machine) { return machine.loader.when == shading::LoadTime::frame ? 2 : 1; }
@@ -80,15 +94,15 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
 }
 
 void Imogene::load_materials() {
-  if (scene_.materials.size() > static_cast<std::size_t>(machine_.shading.materials))
-    throw InputError({"", 0, "shading.materials",
-                      fmt::format("the scene has {} materials and the shading tables hold {}", scene_.materials.size(),
-                                  machine_.shading.materials)});
-  if (scene_.lights.size() > static_cast<std::size_t>(machine_.shading.lights))
-    throw InputError({"", 0, "shading.lights",
-                      fmt::format("the scene has {} lights and the shading processor units for {}",
-                                  scene_.lights.size(), machine_.shading.lights)});
   Diagnostics diagnostics;
+  if (scene_.materials.size() > static_cast<std::size_t>(machine_.shading.materials))
+    diagnostics.add({"", 0, "shading.materials",
+                     fmt::format("the scene has {} materials and the shading tables hold {}", scene_.materials.size(),
+                                 machine_.shading.materials)});
+  if (scene_.lights.size() > static_cast<std::size_t>(machine_.shading.lights))
+    diagnostics.add({"", 0, "shading.lights",
+                     fmt::format("the scene has {} lights and the shading processor units for {}", scene_.lights.size(),
+                                 machine_.shading.lights)});
   for (std::size_t i = 0; i < scene_.lights.size(); ++i)
     if (scene_.lights[i].kind == scene::LightKind::point)
       diagnostics.add(
@@ -98,6 +112,12 @@ void Imogene::load_materials() {
   if (scene_.specular_gate)
     diagnostics.add(
         {"", 0, "lighting.specular_gate", "this machine's specular tables know nothing of N.L: false alone"});
+  for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+    if (const auto& known = machine_.shading.exponents;
+        std::find(known.begin(), known.end(), scene_.materials[i].exponent) == known.end())
+      diagnostics.add({"", 0, fmt::format("material[{}].exponent", i),
+                       fmt::format("{} is not in the path ROM; accepted: {} (shading.exponents)",
+                                   scene_.materials[i].exponent, fmt::join(known, ", "))});
   diagnostics.throw_if_any();
   for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
     const scene::Material& material = scene_.materials[i];
@@ -124,15 +144,16 @@ stream::Link& Imogene::add_link(const std::string& name, unsigned bits, const Cl
 void Imogene::build_links() {
   const auto units = static_cast<std::size_t>(machine_.host.computation_units);
   // A link moves one byte in link_bits_per_byte bit times.
-  const Clock byte_clock = Clock::from_frequency_hz(
-      "link bytes", static_cast<std::uint64_t>(machine_.host.link_mbit_per_s * 1e6 / machine_.host.link_bits_per_byte));
-  const Clock bus_clock = Clock::from_frequency_hz(
-      "bus words", static_cast<std::uint64_t>(machine_.host.clock_hz / machine_.host.bus_cycles_per_word));
+  const Clock byte_clock =
+      Clock::from_period_ns("link bytes", 1e3 * machine_.host.link_bits_per_byte / machine_.host.link_mbit_per_s);
+  const Clock bus_clock =
+      Clock::slower("bus words", cost_.clock(), static_cast<std::uint64_t>(machine_.host.bus_cycles_per_word));
   const decision_unit::LinkWidth width{static_cast<std::uint64_t>(machine_.object_processor.word_bits),
                                        static_cast<std::uint64_t>(machine_.object_processor.normal_bits),
                                        machine_.material_bits()};
   for (std::size_t k = 0; k < units; ++k)
     host_links_.push_back(&add_link(fmt::format("host link {}", k), 8, byte_clock));
+  light_link_ = &add_link("animation unit to table loader", 8, byte_clock);
   for (std::size_t k = 0; k < units; ++k) bus_links_.push_back(&add_link(fmt::format("bus {}", k), 32, bus_clock));
   for (std::size_t k = 0; k < units; ++k)
     board_links_.push_back(
@@ -154,6 +175,14 @@ void Imogene::build_hosts() {
       result.push_back(host_links_[child]);
     return result;
   };
+  const std::vector<std::uint64_t> subtree = subtree_mesh_bytes(slots_, machine_.host);
+  const auto meshes_below = [&](std::size_t node) {
+    std::vector<std::uint64_t> result;
+    for (const std::size_t child : host::children(node, units, machine_.host.link_topology, links))
+      result.push_back(subtree[child]);
+    return result;
+  };
+  stream::Link& light_link = *light_link_;
   // The retraces are the video timing's, which comes first.
   video_timing_ = std::make_unique<video::VideoTimingModule>("video_timing", timing_,
                                                              static_cast<std::size_t>(machine_.video.lines), units + 2,
@@ -162,13 +191,13 @@ void Imogene::build_hosts() {
       "animation_unit", animation_, cost_, below(0).size(), units, machine_.host.overflow,
       host::AnimationUnitModule::Timeline{&video_timing_->swapped,
                                           [this] { return video_timing_->displayed_frame() - 1; }},
-      below(0));
+      below(0), meshes_below(0), &light_link);
   for (std::size_t k = 0; k < units; ++k) {
     computations_.push_back(std::make_unique<host::Computation>(resident_, format, slots_.boards[k]));
     computation_units_.push_back(std::make_unique<host::ComputationUnitModule>(
         fmt::format("computation_unit_{}", k).c_str(), static_cast<std::uint32_t>(k), *computations_[k], cost_,
         below(k + 1).size(), video_timing_->swapped,
-        host::ComputationUnitModule::Links{host_links_[k], below(k + 1), bus_links_[k]}));
+        host::ComputationUnitModule::Links{host_links_[k], below(k + 1), bus_links_[k], meshes_below(k + 1)}));
   }
 }
 
@@ -201,20 +230,27 @@ void Imogene::build_shading() {
       "deferred_shading", shader_, columns, timing_.clock, machine_.shading.total_latency(), rgb);
 
   const bool sequencer = machine_.loader.kind == shading::LoaderKind::sequencer;
-  const auto engine = [&](const char* name, double mhz, std::int64_t bits) {
+  const auto engine = [&](const char* name, shading::TableKind kind, double mhz, std::int64_t bits,
+                          std::int64_t loaders) {
     const Clock clock = sequencer ? Clock::from_period_ns(name, machine_.loader.sequencer_clock_ns)
-                                  : Clock::from_frequency_hz(name, static_cast<std::uint64_t>(mhz * 1e6));
-    stream::Link& link = add_link(fmt::format("{} to tables", name), static_cast<unsigned>(bits), clock);
+                                  : Clock::from_period_ns(name, 1e3 / mhz);
+    const Clock steps = Clock::from_period_ns(name, 1e9 * shading::step_seconds(machine_.loader, kind, false));
+    stream::Link& link = add_link(fmt::format("{} to tables", name), static_cast<unsigned>(bits * loaders), steps);
     table_links_.push_back(&link);
-    return shading::TableLoaderModule::Engine{&link, stream::OccupancyMeter(clock)};
+    return shading::TableLoaderModule::Engine{&link, static_cast<std::uint64_t>(loaders),
+                                              stream::OccupancyMeter(clock)};
   };
+  const std::int64_t lights = machine_.shading.lights;
   table_loader_ = std::make_unique<shading::TableLoaderModule>(
       "table_loader", shader_, machine_.loader, loaded_materials(machine_, scene_),
       timing_.clock.picoseconds(timing_.vertical_retrace), video_timing_->swapped,
       std::array<shading::TableLoaderModule::Engine, 3>{
-          engine("dot product loader", machine_.loader.dot_clock_mhz, machine_.shading.dot_table_output_bits),
-          engine("diffuse loader", machine_.loader.diffuse_clock_mhz, machine_.shading.level_bits),
-          engine("specular loader", machine_.loader.specular_clock_mhz, machine_.shading.level_bits)});
+          engine("dot product loader", shading::TableKind::diffuse_dot, machine_.loader.dot_clock_mhz,
+                 machine_.shading.dot_table_output_bits, 2 * lights),
+          engine("diffuse loader", shading::TableKind::diffuse, machine_.loader.diffuse_clock_mhz,
+                 machine_.shading.level_bits, 3 * lights),
+          engine("specular loader", shading::TableKind::specular, machine_.loader.specular_clock_mhz,
+                 machine_.shading.level_bits, machine_.shading.specular_tables * lights)});
 }
 
 void Imogene::build_video() {
@@ -279,6 +315,7 @@ void Imogene::note_shown(std::uint64_t frame, const frame::Frame& pixels, std::u
     shown_.animation_frame = work.animation_frame;
     shown_.pose = work.pose;
     shown_.guarded = animation_unit_->guarded();
+    shown_.pieces_dropped = animation_unit_->pieces_dropped();
     shown_.triangles = {};
     for (std::size_t k = 0; k < computations_.size(); ++k) {
       shown_.triangles += computations_[k]->triangle_counts();
@@ -287,6 +324,7 @@ void Imogene::note_shown(std::uint64_t frame, const frame::Frame& pixels, std::u
       shown_.words += computation_units_[k]->updates().back().words;
     }
   }
+  most_pieces_ = std::max(most_pieces_, shown_.triangles.pieces + shown_.pieces_dropped);
   if (frame == 0) reset_host_links();
   const std::uint64_t frame_ps = timing_.clock.picoseconds(timing_.frame * frame);
   shown_.first_pixel_ps = frame_ps + timing_.clock.picoseconds(timing_.first_pixel(0) + pixel_latency_);
@@ -300,6 +338,7 @@ void Imogene::reset_host_links() {
   for (stream::Link* link : host_links_) link->reset();
   for (stream::Link* link : bus_links_) link->reset();
   for (stream::Link* link : table_links_) link->reset();
+  light_link_->reset();
 }
 
 void Imogene::run() {
@@ -307,14 +346,39 @@ void Imogene::run() {
                                           sc_core::SC_DO_NOTHING);  // that it was stopped is no news
   // The video timing pauses after every frame, so that a frame is handed on outside the simulation: its processes have
   // small stacks, and what the sink throws is the caller's.
-  do {
+  while (!video_timing_->finished()) {
     sc_core::sc_start();
     stream::rethrow_failure();
     if (pixels_ != nullptr && sink_) sink_(shown_, *pixels_);
     pixels_ = nullptr;
-  } while (sc_core::sc_get_status() != sc_core::SC_STOPPED);
-  end_ps_ = start_ps() + timing_.clock.picoseconds(timing_.frame * options_.frames);
+  }
+  close_books();
   check_identities();
+  settle();
+}
+
+// What a report says of cycles and links is of the displayed frames.
+void Imogene::close_books() {
+  end_ps_ = stream::picoseconds_now();
+  books_.animation_unit = animation_unit_->occupancy(end_ps_);
+  for (const auto& unit : computation_units_) books_.computation_units.push_back(unit->occupancy(end_ps_));
+  for (std::size_t i = 0; i < books_.table_loaders.size(); ++i)
+    books_.table_loaders[i] = table_loader_->occupancy(i, end_ps_);
+  books_.links.assign(links_.begin(), links_.end());
+}
+
+// A unit that needs longer than the displayed frames must not look as if it had nothing to do: the hosts finish the
+// update that they are at, and nothing is shown any more.
+void Imogene::settle() {
+  if (!animation_.moves()) return;
+  const auto unsettled = [this] {
+    return std::any_of(computation_units_.begin(), computation_units_.end(),
+                       [](const auto& unit) { return unit->updates().size() < 2; });
+  };
+  while (unsettled()) {
+    sc_core::sc_start(stream::to_time(timing_.clock, timing_.frame));
+    stream::rethrow_failure();
+  }
 }
 
 void Imogene::check_identities() {

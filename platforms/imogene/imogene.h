@@ -2,6 +2,7 @@
 // when, and this says who is connected to whom.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -37,8 +38,17 @@ struct ShownFrame {
   host::TriangleCounts triangles;
   std::uint64_t flops = 0;  // of the update
   std::uint64_t words = 0;
+  std::uint64_t pieces_dropped = 0;  // of clipped triangles, that found no processor
   std::uint64_t first_pixel_ps = 0;  // since the first displayed frame's retrace began
   std::uint64_t last_pixel_ps = 0;
+};
+
+// Where cycles and bytes went while the frames were displayed.
+struct Books {
+  stream::Occupancy animation_unit;
+  std::vector<stream::Occupancy> computation_units;
+  std::array<stream::Occupancy, shading::TableLoaderModule::kEngines> table_loaders{};
+  std::vector<stream::Link> links;
 };
 
 class Imogene {
@@ -74,7 +84,9 @@ class Imogene {
   shading::TableLoaderModule& table_loader() { return *table_loader_; }
   decision_unit::DecisionUnit& decision() { return decision_; }
   decision_unit::DecisionUnitModule& decision_module() { return *decision_module_; }
-  std::deque<stream::Link>& links() { return links_; }
+  const Books& books() const { return books_; }
+  // The most processors that pieces of clipped triangles asked for in a displayed frame, beyond one a triangle.
+  std::uint64_t most_pieces() const { return most_pieces_; }
 
  private:
   void load_materials();
@@ -87,6 +99,8 @@ class Imogene {
   void bind_display();
   void note_shown(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps);
   void reset_host_links();
+  void close_books();
+  void settle();
   void check_identities();
   stream::Link& add_link(const std::string& name, unsigned bits, const Clock& clock);
 
@@ -108,6 +122,7 @@ class Imogene {
   std::vector<stream::Link*> bus_links_;    // of unit k
   std::vector<stream::Link*> board_links_;  // of board k
   std::vector<stream::Link*> table_links_;
+  stream::Link* light_link_ = nullptr;
   std::vector<std::unique_ptr<host::Computation>> computations_;
   std::vector<object_processor::ObjectBoard> boards_;
   decision_unit::DecisionUnit decision_;
@@ -128,6 +143,8 @@ class Imogene {
   const frame::Frame* pixels_ = nullptr;  // of shown_, until it has been handed on
   std::uint64_t updates_seen_ = 0;
   std::uint64_t end_ps_ = 0;
+  std::uint64_t most_pieces_ = 0;
+  Books books_;
 };
 
 }  // namespace rastertlm::imogene

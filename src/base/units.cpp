@@ -26,6 +26,10 @@ Clock Clock::from_period_ns(std::string name, double ns) {
   return Clock(std::move(name), femtoseconds, kFemtosecondsPerPicosecond);
 }
 
+Clock Clock::slower(std::string name, const Clock& clock, std::uint64_t cycles) {
+  return Clock(std::move(name), clock.numerator_ps_ * cycles, clock.denominator_);
+}
+
 double Clock::period_ns() const {
   return static_cast<double>(numerator_ps_) / (1e3 * static_cast<double>(denominator_));
 }
@@ -51,8 +55,10 @@ Cycles Clock::cycles_round(double seconds) const {
 }
 
 Cycles Clock::cycles_at(std::uint64_t picoseconds) const {
+  // The least n with picoseconds(n) >= the time: picoseconds() rounds to nearest.
   const Wide product = static_cast<Wide>(picoseconds) * denominator_;
-  return Cycles(static_cast<std::uint64_t>((product + numerator_ps_ - 1) / numerator_ps_));
+  const Wide half = denominator_ / 2;
+  return Cycles(product <= half ? 0 : static_cast<std::uint64_t>((product - half + numerator_ps_ - 1) / numerator_ps_));
 }
 
 }  // namespace rastertlm

@@ -34,6 +34,8 @@ class Clock {
   static Clock from_frequency_hz(std::string name, std::uint64_t hz);
   // The period is taken to the nearest femtosecond.
   static Clock from_period_ns(std::string name, double ns);
+  // One tick in `cycles` cycles of `clock`.
+  static Clock slower(std::string name, const Clock& clock, std::uint64_t cycles);
 
   const std::string& name() const { return name_; }
   double frequency_hz() const;

@@ -1,6 +1,7 @@
 #include "src/cli/render_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -39,9 +40,10 @@ run::Result simulate(const run::Inputs& inputs, const run::Options& options, rep
 void print_summary(const run::Result& result, const std::string& directory) {
   std::string text = report::answer_sentence(result) + '\n';
   if (const auto ideal = report::worst_of(result, "ideal"))
-    text += fmt::format("Against the ideal picture: {} missing, {} extra pixels; largest error {} levels, PSNR {}.\n",
-                        report::grouped(ideal->covered_missing), report::grouped(ideal->covered_extra),
-                        ideal->max_level, ideal->psnr_db ? fmt::format("{:.4g} dB", *ideal->psnr_db) : "infinite");
+    text += fmt::format(
+        "Against the ideal picture: {} missing, {} extra pixels; largest error {} levels, PSNR with outlines {}.\n",
+        report::grouped(ideal->covered_missing), report::grouped(ideal->covered_extra), ideal->max_level,
+        report::decibels(ideal->psnr_outline_db, ideal->compared + ideal->covered_missing + ideal->covered_extra));
   for (const std::string& warning : result.warnings) text += "Warning: " + warning + '\n';
   text += fmt::format("{}/{}, {}, {}\n", directory, report::kReportText, report::kReportJson,
                       result.frames.empty() ? report::kFramesCsv : report::picture_name(result.frames.front().frame));
@@ -105,19 +107,21 @@ std::vector<std::string> missed_requirements(const run::Result& result, double r
   std::vector<std::string> missed;
   const run::Answer& answer = result.answer;
   const bool rate_met = answer.frame_rate_hz >= rate_hz || (answer.sustained && rate_hz <= answer.required_rate_hz);
-  if (rate_hz > 0.0 && !rate_met)
+  if (rate_hz > 0.0 && !answer.display_works)
+    missed.push_back(fmt::format("Requirement missed: the machine does not show the scene at {:.6g} Hz: {}.", rate_hz,
+                                 fmt::join(answer.limits, "; ")));
+  else if (rate_hz > 0.0 && !rate_met)
     missed.push_back(
         fmt::format("Requirement missed: {:.6g} Hz is below the required {:.6g} Hz.", answer.frame_rate_hz, rate_hz));
   if (psnr_db <= 0.0) return missed;
   for (const run::FrameFigures& frame : result.frames)
     for (const reference::ErrorFigures& e : frame.errors) {
       if (e.reference != "ideal") continue;
-      if (e.psnr_db && *e.psnr_db < psnr_db)
-        missed.push_back(fmt::format("Requirement missed: frame {} has {:.6g} dB, below the required {:.6g} dB.",
-                                     frame.frame, *e.psnr_db, psnr_db));
-      else if (e.compared == 0 && e.covered_missing + e.covered_extra > 0)
-        missed.push_back(fmt::format(
-            "Requirement missed: frame {} shows none of the pixels that the ideal picture covers.", frame.frame));
+      if (e.psnr_outline_db && *e.psnr_outline_db < psnr_db)
+        missed.push_back(
+            fmt::format("Requirement missed: frame {} has {:.6g} dB over the pixels that either picture covers, below "
+                        "the required {:.6g} dB.",
+                        frame.frame, *e.psnr_outline_db, psnr_db));
     }
   return missed;
 }

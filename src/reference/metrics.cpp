@@ -36,6 +36,13 @@ int add_pixel(const frame::Frame& shown, const frame::ExactFrame& exact, std::si
   return largest;
 }
 
+// None where it is infinite.
+std::optional<double> psnr(std::uint64_t squares, std::uint64_t pixels) {
+  if (squares == 0) return std::nullopt;
+  const double rmse = std::sqrt(static_cast<double>(squares) / (3.0 * static_cast<double>(pixels)));
+  return 20.0 * mathematics::log(255.0 / rmse) / mathematics::log(10.0);
+}
+
 }  // namespace
 
 ErrorFigures compare(const frame::Frame& shown, const frame::ExactFrame& exact, const std::string& reference) {
@@ -43,12 +50,17 @@ ErrorFigures compare(const frame::Frame& shown, const frame::ExactFrame& exact, 
   ErrorFigures figures;
   figures.reference = reference;
   Sums sums;
+  Sums outline;  // of pixels that one picture alone covers
   for (std::size_t pixel = 0; pixel < exact.pixels(); ++pixel) {
     const bool in_shown = shown.object[pixel] != 0;
     const bool in_exact = exact.object[pixel] != 0;
     figures.covered_missing += !in_shown && in_exact ? 1 : 0;
     figures.covered_extra += in_shown && !in_exact ? 1 : 0;
-    if (!in_shown || !in_exact) continue;
+    if (!in_shown && !in_exact) continue;
+    if (!in_shown || !in_exact) {
+      add_pixel(shown, exact, pixel, outline);
+      continue;
+    }
     ++figures.compared;
     const int largest = add_pixel(shown, exact, pixel, sums);
     figures.max_level = std::max(figures.max_level, largest);
@@ -57,12 +69,14 @@ ErrorFigures compare(const frame::Frame& shown, const frame::ExactFrame& exact, 
     else
       ++figures.wrong_object;
   }
+  const std::uint64_t either = figures.compared + figures.covered_missing + figures.covered_extra;
+  figures.psnr_outline_db = psnr(sums.squares + outline.squares, either);
   if (figures.compared == 0) return figures;
   const double values = 3.0 * static_cast<double>(figures.compared);
   figures.rmse_level = std::sqrt(static_cast<double>(sums.squares) / values);
   figures.rmse_unrounded_level = std::sqrt(sums.unrounded_squares / values);
   figures.over_one_level_percent = 100.0 * static_cast<double>(sums.over_one) / static_cast<double>(figures.compared);
-  if (sums.squares > 0) figures.psnr_db = 20.0 * mathematics::log(255.0 / figures.rmse_level) / mathematics::log(10.0);
+  figures.psnr_db = psnr(sums.squares, figures.compared);
   return figures;
 }
 

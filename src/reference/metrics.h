@@ -23,8 +23,10 @@ struct ErrorFigures {
   double rmse_level = 0.0;            // root of the mean square difference, over the channels of all compared pixels
   double rmse_unrounded_level =
       0.0;  // the same with the exact level not rounded: holds the display's own rounding, 0.29 levels at best
-  std::optional<double> psnr_db;        // 20 log10(255 / rmse_level); none where rmse_level is 0 (infinite)
-  double over_one_level_percent = 0.0;  // compared pixels with a channel that differs by more than one level
+  std::optional<double> psnr_db;          // 20 log10(255 / rmse_level); none where rmse_level is 0 (infinite)
+  std::optional<double> psnr_outline_db;  // the same over the pixels that either picture covers: a missing pixel counts
+                                          // by what is seen instead
+  double over_one_level_percent = 0.0;    // compared pixels with a channel that differs by more than one level
 };
 
 // Both of the same size, else std::invalid_argument.

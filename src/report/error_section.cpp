@@ -21,19 +21,28 @@ void take_worst(reference::ErrorFigures& worst, const reference::ErrorFigures& e
   worst.rmse_level = std::max(worst.rmse_level, e.rmse_level);
   worst.rmse_unrounded_level = std::max(worst.rmse_unrounded_level, e.rmse_unrounded_level);
   if (e.psnr_db) worst.psnr_db = worst.psnr_db ? std::min(*worst.psnr_db, *e.psnr_db) : *e.psnr_db;
+  if (e.psnr_outline_db)
+    worst.psnr_outline_db =
+        worst.psnr_outline_db ? std::min(*worst.psnr_outline_db, *e.psnr_outline_db) : *e.psnr_outline_db;
   worst.over_one_level_percent = std::max(worst.over_one_level_percent, e.over_one_level_percent);
 }
 
 const char* meaning(const std::string& reference) {
   if (reference == "ideal")
     return "the machine's own model in double, vertices not snapped: the error of the arithmetic";
-  if (reference == "snapped") return "the same given the snapped vertices: no pixel of it may be missing or extra";
+  if (reference == "snapped")
+    return "the same given the snapped vertices: where edges are snapped, no pixel of it may be missing or extra";
   if (reference == "true")
     return "perspective-correct normals, local viewer and lights: the error of the model as well";
   return "";
 }
 
 }  // namespace
+
+std::string decibels(const std::optional<double>& value, std::uint64_t pixels) {
+  if (value) return fmt::format("{:.6g} dB", *value);
+  return pixels == 0 ? "nothing to compare" : "infinite";
+}
 
 std::vector<std::string> references_of(const run::Result& result) {
   std::vector<std::string> names;
@@ -71,6 +80,7 @@ std::string error_section(const run::Result& result) {
                    {"same triangle", Align::right},
                    {"RMSE", Align::right},
                    {"PSNR", Align::right},
+                   {"with outlines", Align::right},
                    {"over one level", Align::right}},
                   "  ");
   for (const std::string& name : references) {
@@ -78,11 +88,15 @@ std::string error_section(const run::Result& result) {
     table.row({name, grouped(e.covered_missing) + " px", grouped(e.covered_extra) + " px",
                grouped(e.wrong_object) + " px", fmt::format("{} levels", e.max_level),
                fmt::format("{} levels", e.max_level_same_object), fmt::format("{:.6g} levels", e.rmse_level),
-               e.psnr_db ? fmt::format("{:.6g} dB", *e.psnr_db) : "infinite",
+               decibels(e.psnr_db, e.compared),
+               decibels(e.psnr_outline_db, e.compared + e.covered_missing + e.covered_extra),
                fmt::format("{:.6g} %", e.over_one_level_percent)});
   }
   text += table.text();
   for (const std::string& name : references) text += fmt::format("  {}: {}\n", name, meaning(name));
+  text +=
+      "  Levels are compared where both pictures are covered; \"with outlines\" is the PSNR where either is, missing "
+      "and extra pixels included.\n";
   text += fmt::format(
       "  A level is 1/255 of a channel. error_*.png: absolute difference from the ideal picture, times {}.\n",
       kErrorAmplification);

@@ -14,16 +14,24 @@ constexpr const char* kFrameColumns =
     "degenerate_triangles,"
     "outside_triangles,"
     "piece_processors,dropped_pieces,snap_fraction_bits,covered_pixels,fragment_pixels,host_flop,sent_words";
-constexpr const char* kErrorColumns[] = {
-    "compared_pixels", "missing_pixels",        "extra_pixels", "wrong_object_pixels",
-    "max_level",       "max_level_same_object", "rmse_level",   "rmse_unrounded_level",
-    "psnr_db",         "over_one_level_percent"};
+constexpr const char* kErrorColumns[] = {"compared_pixels",
+                                         "missing_pixels",
+                                         "extra_pixels",
+                                         "wrong_object_pixels",
+                                         "max_level",
+                                         "max_level_same_object",
+                                         "rmse_level",
+                                         "rmse_unrounded_level",
+                                         "psnr_db",
+                                         "psnr_outline_db",
+                                         "over_one_level_percent"};
 
 std::string error_fields(const reference::ErrorFigures* e) {
   if (e == nullptr) return std::string(std::size(kErrorColumns), ',');
-  return fmt::format(",{},{},{},{},{},{},{:.6g},{:.6g},{},{:.6g}", e->compared, e->covered_missing, e->covered_extra,
+  return fmt::format(",{},{},{},{},{},{},{:.6g},{:.6g},{},{},{:.6g}", e->compared, e->covered_missing, e->covered_extra,
                      e->wrong_object, e->max_level, e->max_level_same_object, e->rmse_level, e->rmse_unrounded_level,
-                     e->psnr_db ? fmt::format("{:.6g}", *e->psnr_db) : "", e->over_one_level_percent);
+                     e->psnr_db ? fmt::format("{:.6g}", *e->psnr_db) : "",
+                     e->psnr_outline_db ? fmt::format("{:.6g}", *e->psnr_outline_db) : "", e->over_one_level_percent);
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ void visit(Visitor& v, run::Answer& a) {
           {"frames", kFormula, "from the start of an animation frame to the first line of its picture"},
           a.latency_frames);
   v.value("initial_load_frames", {"frames", kFormula, "video frames before the first picture"}, a.initial_load_frames);
+  v.value("display_works", {"", kFormula, "whether every unit behind the host keeps its deadlines"}, a.display_works);
   v.texts("limits", {"", kFormula, "one sentence for everything that keeps the machine from its rate"}, a.limits);
 }
 
@@ -85,6 +86,7 @@ void visit(Visitor& v, run::Budget& b) {
   v.value("fits", {"", kFormula, "used <= available"}, b.fits);
   v.value("applies", {"", kSetting, "whether this machine depends on it; false: stated for comparison"}, b.applies);
   v.value("source", {"", kSetting, "the formula or the paper"}, b.source);
+  v.value("moved_by", {"", kSetting, "the parameters that change it"}, b.moved_by);
 }
 
 template <class Visitor>
@@ -136,7 +138,12 @@ void visit(Visitor& v, reference::ErrorFigures& e) {
   v.metric("rmse_unrounded_level",
            {"levels", kFormula, "the same with the exact level not rounded: holds the display's own rounding"},
            e.rmse_unrounded_level);
-  v.metric("psnr_db", {"dB", kFormula, "20 log10(255 / rmse_level); null where that is infinite"}, e.psnr_db);
+  v.metric("psnr_db",
+           {"dB", kFormula, "20 log10(255 / rmse_level); null where that is infinite, or nothing is compared"},
+           e.psnr_db);
+  v.metric("psnr_outline_db",
+           {"dB", kFormula, "PSNR over the pixels that either picture covers, missing and extra ones included"},
+           e.psnr_outline_db);
   v.metric("over_one_level_percent",
            {"%", kFormula, "compared pixels with a channel that differs by more than one level"},
            e.over_one_level_percent);
@@ -192,8 +199,11 @@ void visit(Visitor& v, run::Modelled& m) {
     o.value("evaluated", {"lines", kCount, "on which a board had something to do"}, m.lines_evaluated);
   });
   v.object("coefficients", "words written to the boards", [&](Visitor& o) {
-    o.value("total", {"words", kFormula, "that a host which sends everything would have written"},
-            m.coefficients_total);
+    o.value(
+        "total",
+        {"words", kFormula,
+         "22 for every slot that holds an object, an update; slots that show nothing are parked with 3 words or none"},
+        m.coefficients_total);
     o.value("sent", {"words", kCount, "that were written"}, m.coefficients_sent);
   });
   v.object("objects", "triangles of the scene", [&](Visitor& o) {

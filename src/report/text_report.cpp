@@ -28,8 +28,8 @@ std::string percent_of(std::uint64_t part, std::uint64_t whole) {
 
 std::string limits_section(const run::Result& result) {
   const run::Answer& a = result.answer;
-  std::string text = heading("What limits it");
-  if (a.limits.empty()) text += sentence_line("Nothing keeps the machine from its rate.");
+  std::string text = heading("What is in the way of the rate");
+  if (a.limits.empty()) text += sentence_line("Nothing: every unit keeps up.");
   for (const std::string& limit : a.limits) text += sentence_line(limit);
   TextTable table({{"rate"}, {"Hz", Align::right}, {"meaning"}}, kIndent);
   table.row({"required", rate(a.required_rate_hz), "video.refresh_hz"});
@@ -211,10 +211,11 @@ std::string answer_sentence(const run::Result& result) {
   if (a.update_rate_hz < 0.999 * a.display_rate_hz)
     text += fmt::format(" on a display that scans out {:.1f} times a second", a.display_rate_hz);
   if (a.bottleneck.unit.empty()) return text + "; nothing limits it.";
-  text += fmt::format("; limited by {}: {}, {} of what a frame allows", a.bottleneck.unit, a.bottleneck.resource,
+  text += fmt::format("; limited by {}: {}, {} used", a.bottleneck.unit, a.bottleneck.resource,
                       percent(a.bottleneck.utilisation));
+  if (!a.display_works) return text + ". The picture is not whole: " + a.limits.back() + ".";
   if (a.headroom >= 0.0) return text + fmt::format("; headroom {}.", percent(a.headroom));
-  return text + fmt::format("; short of the required rate by {}.", percent(-a.headroom));
+  return text + fmt::format("; it allows {} less than the required rate.", percent(-a.headroom));
 }
 
 std::string text_report(const Contents& contents) {

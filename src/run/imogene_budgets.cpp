@@ -13,11 +13,13 @@ namespace {
 
 using imogene::Imogene;
 
+constexpr const char* kLoaderKeys = "loader.kind, loader.when, the loader's clocks and cycles";
+
 double as_real(Cycles cycles) { return static_cast<double>(cycles.count()); }
 
 Budget budget(const std::string& name, double used, double available, const std::string& unit,
-              const std::string& source, bool applies = true) {
-  return {name, used, available, unit, used <= available, applies, source};
+              const std::string& source, const std::string& moved_by, bool applies = true) {
+  return {name, used, available, unit, used <= available, applies, source, moved_by};
 }
 
 void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) {
@@ -28,22 +30,26 @@ void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
   budgets.push_back(budget(
       "line_start", as_real(object_processor::line_start_cycles(slices)), as_real(timing.horizontal_blanking), "cycles",
       fmt::format("2 x {} slices + 5 (004, section 5.2.2); horizontal blanking of {} - {} pixel clocks", slices,
-                  timing.line.count(), machine.video.columns)));
+                  timing.line.count(), machine.video.columns),
+      "object_processor.slice_bits, video.columns, video.pixel_clock_ns"));
   budgets.push_back(budget("frame_start", as_real(object_processor::frame_start_cycles()), retrace, "cycles",
-                           "the copy's 8 steps (004, section 5.2.2); vertical retrace"));
+                           "the copy's 8 steps (004, section 5.2.2); vertical retrace", "video.vertical_retrace_us"));
   const Cycles skew =
       decision_unit::skew(machine.decision_unit.topology, machine.processors(),
                           Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)));
-  budgets.push_back(budget("pipeline_skew", as_real(skew + object_processor::frame_start_cycles()), retrace, "cycles",
-                           "the last processor works later than the first by one comparator each (0 in a tree), then "
-                           "copies; vertical retrace"));
+  budgets.push_back(
+      budget("pipeline_skew", as_real(skew + object_processor::frame_start_cycles()), retrace, "cycles",
+             "the last processor works later than the first by one comparator each (0 in a tree), then "
+             "copies; vertical retrace",
+             "decision_unit.topology, host.computation_units, host.processors_per_unit, video.vertical_retrace_us"));
   const double period = timing.clock.period_ns();
   budgets.push_back(
       budget("adder_delay", machine.object_processor.adder_delay_ns(), period, "ns",
              fmt::format("{} + {} a bit x {} bits; the pixel clock's period ({} slices of the {}-bit word would fit)",
                          machine.object_processor.adder_ns, machine.object_processor.adder_ns_per_bit,
                          machine.object_processor.slice_bits, machine.object_processor.slices_that_fit(period),
-                         machine.object_processor.word_bits)));
+                         machine.object_processor.word_bits),
+             "object_processor.slice_bits, video.pixel_clock_ns"));
 }
 
 void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
@@ -51,22 +57,27 @@ void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
   const bool moves = platform.animation().moves();
   const std::string which =
       fmt::format("computation unit {}, the slowest{}", load.unit, load.steady ? "" : ", when everything is new");
-  budgets.push_back(budget(
-      "host.update", as_real(load.update.cycles), as_real(load.frame), "cycles",
-      which + ": links, arithmetic, waiting for the frame's grid, and bus; host cycles of a video frame", moves));
+  budgets.push_back(
+      budget("host.update", as_real(load.update.cycles), as_real(load.frame), "cycles",
+             which + ": links, arithmetic, waiting for the frame's grid, and bus; host cycles of a video frame",
+             "host.computation_units, host.sustained_mflops, host.assignment", moves));
   budgets.push_back(
       budget("host.flops", static_cast<double>(load.update.flops),
              platform.machine().host.sustained_mflops * 1e6 * platform.timing().clock.seconds(platform.timing().frame),
-             "flop", which + ": operations counted in the code that computes; sustained rate x video frame", moves));
+             "flop", which + ": operations counted in the code that computes; sustained rate x video frame",
+             "host.computation_units, host.sustained_mflops", moves));
   budgets.push_back(budget(
       "host.bus", as_real(load.update.writing), as_real(load.frame), "cycles",
       fmt::format("{}: {} words x {} cycles", which, load.update.words, platform.machine().host.bus_cycles_per_word),
-      moves));
+      "host.bus_cycles_per_word, host.clock_hz", moves));
   std::uint64_t used = 0;
   for (const auto& owners : platform.slots().boards) used += owners.size();
-  budgets.push_back(budget("processors", static_cast<double>(used + platform.slots().dropped),
-                           static_cast<double>(platform.machine().processors()), "processors",
-                           "one an object (triangle) of the scene; units x processors a unit"));
+  budgets.push_back(budget(
+      "processors", static_cast<double>(used + platform.slots().dropped + platform.most_pieces()),
+      static_cast<double>(platform.machine().processors()), "processors",
+      fmt::format("one an object (triangle) of the scene, and {} for pieces of clipped ones; units x processors a unit",
+                  platform.most_pieces()),
+      "host.computation_units, host.processors_per_unit"));
 }
 
 void add_table_budgets(Imogene& platform, std::vector<Budget>& budgets) {
@@ -74,7 +85,9 @@ void add_table_budgets(Imogene& platform, std::vector<Budget>& budgets) {
   const bool sequencer = machine.loader.kind == shading::LoaderKind::sequencer;
   const double retrace_us = machine.video.vertical_retrace_us;
   const double frame_us = platform.timing().clock.seconds(platform.timing().frame) * 1e6;
-  const double own_us = machine.loader.when == shading::LoadTime::retrace ? retrace_us : frame_us;
+  const double obtained_retrace_us = platform.timing().clock.seconds(platform.timing().vertical_retrace) * 1e6;
+  const double own_us = machine.loader.when == shading::LoadTime::retrace ? obtained_retrace_us : frame_us;
+  const double update_us = platform.table_loader().longest_load_seconds() * 1e6;
   const std::vector<shading::LoadBudget> loads =
       shading::load_budgets(machine.shading, machine.loader, machine.shading.materials);
   const auto seconds_of = [&](const std::string& table) {
@@ -87,27 +100,71 @@ void add_table_budgets(Imogene& platform, std::vector<Budget>& budgets) {
     if (load.unit == "words") {
       const double in_time = load.used * own_us / seconds_of(table);
       budgets.push_back(budget(load.name, load.used, std::floor(in_time), load.unit,
-                               load.source + "; words that this machine's loader writes in its time", false));
+                               load.source + "; words that this machine's loader writes in its time", "", false));
     } else if (load.unit == "us") {
       // The paper sets the sequencer against the retrace and the 68000s against the frame.
       const bool by_sequencer = load.name.ends_with("_sequencer");
       const double available = by_sequencer ? retrace_us : frame_us;
+      // Of the tables, those of the dot products alone change while a scene is shown: with the camera.
+      const bool applies = update_us > 0.0 && by_sequencer == sequencer && table == "dot_table" &&
+                           (by_sequencer == (machine.loader.when == shading::LoadTime::retrace));
       budgets.push_back(budget(load.name, load.used, available, load.unit,
-                               load.source + (by_sequencer ? "; vertical retrace" : "; video frame"), false));
+                               load.source + (by_sequencer ? "; vertical retrace" : "; video frame"), kLoaderKeys,
+                               applies));
     } else {
-      budgets.push_back(budget(load.name, load.used, load.used, load.unit, load.source, false));
+      budgets.push_back(budget(load.name, load.used, load.used, load.unit, load.source, "", false));
     }
   }
-  const double update_us = platform.table_loader().longest_load_seconds() * 1e6;
   budgets.push_back(budget("tables.update", update_us, own_us, "us",
                            machine.loader.when == shading::LoadTime::retrace
                                ? "what a frame of this run loads, slowest loader; vertical retrace"
-                               : "what a frame of this run loads into the other bank, slowest loader; video frame",
-                           update_us > 0.0));
+                               : "what a frame of this run loads into the other bank, slowest loader, with the message "
+                                 "that says so; video frame",
+                           kLoaderKeys, update_us > 0.0));
 }
 
 void take(Bottleneck& worst, const std::string& unit, const std::string& resource, double utilisation) {
   if (utilisation > worst.utilisation) worst = {unit, resource, utilisation};
+}
+
+// Rates are told apart from deadlines: a late host or loader shows the old picture again, a unit behind them that is
+// late shows a wrong one.
+bool is_rate(const Budget& budget) {
+  return budget.name.starts_with("host.") || budget.name == "tables.update" || budget.name.starts_with("dot_table.");
+}
+
+std::string limit_sentence(const Budget& b) {
+  return fmt::format("{} needs {:.6g} {} and has {:.6g}; it moves with {}", b.name, b.used, b.unit, b.available,
+                     b.moved_by);
+}
+
+Bottleneck find_bottleneck(Imogene& platform, const std::vector<Budget>& budgets, const HostLoad& host) {
+  const imogene::Machine& machine = platform.machine();
+  const std::uint64_t line_cycles = object_processor::line_start_cycles(machine.object_processor.slices()).count() +
+                                    static_cast<std::uint64_t>(machine.video.columns);
+  const std::uint64_t board_cycles =
+      object_processor::frame_start_cycles().count() + line_cycles * static_cast<std::uint64_t>(machine.video.lines);
+  Bottleneck worst;
+  take(worst, "object boards", "pixel clocks of a frame",
+       static_cast<double>(board_cycles) / as_real(platform.timing().frame));
+  for (const Budget& b : budgets) {
+    if (!b.applies || b.available <= 0.0) continue;
+    const double utilisation = b.used / b.available;
+    if (b.name == "host.update")
+      take(worst, fmt::format("computation unit {}", host.unit),
+           fmt::format("host cycles of a frame ({:.0f} % of them arithmetic)",
+                       100.0 * as_real(host.update.computing) / as_real(host.update.cycles)),
+           utilisation);
+    else if (b.name == "tables.update")
+      take(worst, "dot product loader",
+           machine.loader.when == shading::LoadTime::retrace ? "time of the vertical retrace" : "time of a frame",
+           utilisation);
+    else if (b.name == "adder_delay")
+      take(worst, "object processors", "adder delay in a pixel clock", utilisation);
+    else if (!b.fits && !is_rate(b))
+      take(worst, b.name == "processors" ? "object boards" : "object processors", b.name, utilisation);
+  }
+  return worst;
 }
 
 }  // namespace
@@ -118,15 +175,21 @@ HostLoad host_load(Imogene& platform) {
   const std::uint64_t frame_ps = platform.timing().clock.picoseconds(platform.timing().frame);
   // A frame is no whole number of host cycles: the one that has begun when it ends is too late.
   load.frame = clock.cycles_at(frame_ps + 1) - Cycles(1);
-  for (const auto& unit : platform.computation_units())
-    load.steady = load.steady || (unit->updates().size() > 1 && platform.animation().moves());
+  const auto& units = platform.computation_units();
+  load.steady = platform.animation().moves() &&
+                std::all_of(units.begin(), units.end(), [](const auto& unit) { return unit->updates().size() > 1; });
   for (std::size_t k = 0; k < platform.computation_units().size(); ++k) {
     const auto& updates = platform.computation_units()[k]->updates();
-    for (std::size_t i = load.steady ? 1 : 0; i < updates.size(); ++i)
-      if (updates[i].cycles > load.update.cycles) {
-        load.update = updates[i];
+    for (std::size_t i = load.steady ? 1 : 0; i < updates.size(); ++i) {
+      host::ComputationUnitModule::Update update = updates[i];
+      // The first update waits for the meshes, which come once: what it computes and writes is what moving everything
+      // would take.
+      if (i == 0) update.cycles = update.computing + update.writing;
+      if (update.cycles > load.update.cycles) {
+        load.update = update;
         load.unit = k;
       }
+    }
   }
   load.frames = (clock.picoseconds(load.update.cycles) + frame_ps - 1) / frame_ps;
   return load;
@@ -158,25 +221,21 @@ Answer imogene_answer(Imogene& platform, const std::vector<Budget>& budgets) {
   answer.latency_frames = update_frames;
   answer.initial_load_frames = platform.frames_before_first();
 
-  const std::uint64_t line_cycles = object_processor::line_start_cycles(machine.object_processor.slices()).count() +
-                                    static_cast<std::uint64_t>(machine.video.columns);
-  const std::uint64_t board_cycles =
-      object_processor::frame_start_cycles().count() + line_cycles * static_cast<std::uint64_t>(machine.video.lines);
-  take(answer.bottleneck, "object boards", "pixel clocks of a frame",
-       static_cast<double>(board_cycles) / as_real(timing.frame));
-  if (moves)
-    take(answer.bottleneck, fmt::format("computation unit {}", host.unit), "host cycles of a frame",
-         as_real(host.update.cycles) / as_real(host.frame));
-  take(answer.bottleneck, "table loader", "time of a frame", load_seconds / frame_seconds);
+  answer.bottleneck = find_bottleneck(platform, budgets, host);
   answer.headroom = answer.display_rate_hz / answer.bottleneck.utilisation / answer.required_rate_hz - 1.0;
 
-  if (update_frames > 1)
-    answer.limits.push_back(
-        fmt::format("the {} takes {} video frames for an update: the picture changes {:.6g} times a second",
-                    answer.bottleneck.unit, update_frames, answer.update_rate_hz));
+  if (update_frames > 1) {
+    const bool by_host = host.frames >= load_frames;
+    answer.limits.push_back(fmt::format(
+        "{} takes {} video frames for an update, so the picture changes {:.6g} times a second; it moves with {}",
+        by_host ? fmt::format("computation unit {}", host.unit) : "the dot product loader", update_frames,
+        answer.update_rate_hz, by_host ? "host.computation_units, host.sustained_mflops" : kLoaderKeys));
+  }
   for (const Budget& b : budgets)
-    if (b.applies && !b.fits && b.name != "host.update" && b.name != "host.flops" && b.name != "tables.update")
-      answer.limits.push_back(fmt::format("{} needs {:.6g} {} and has {:.6g}", b.name, b.used, b.unit, b.available));
+    if (b.applies && !b.fits && !is_rate(b)) {
+      answer.limits.push_back(limit_sentence(b));
+      answer.display_works = false;
+    }
   answer.sustained = answer.limits.empty();
   return answer;
 }

@@ -31,11 +31,10 @@ std::uint64_t columns_of(const Imogene& platform) {
 
 std::vector<UnitFigures> unit_figures(Imogene& platform) {
   std::vector<UnitFigures> units;
-  const std::uint64_t end = platform.end_ps();
-  units.push_back(figures("animation unit", platform.cost().clock(), platform.animation_unit().occupancy(end)));
+  units.push_back(figures("animation unit", platform.cost().clock(), platform.books().animation_unit));
   for (std::size_t k = 0; k < platform.computation_units().size(); ++k)
-    units.push_back(figures(fmt::format("computation unit {}", k), platform.cost().clock(),
-                            platform.computation_units()[k]->occupancy(end)));
+    units.push_back(
+        figures(fmt::format("computation unit {}", k), platform.cost().clock(), platform.books().computation_units[k]));
   const std::uint64_t line_start =
       object_processor::line_start_cycles(platform.machine().object_processor.slices()).count();
   const std::uint64_t shown = platform.decision_module().lines_sent() / lines_of(platform);
@@ -50,15 +49,15 @@ std::vector<UnitFigures> unit_figures(Imogene& platform) {
     units.push_back(display_unit(name, platform, shown, pixels));
   const char* const engines[] = {"dot product loader", "diffuse loader", "specular loader"};
   for (std::size_t engine = 0; engine < shading::TableLoaderModule::kEngines; ++engine)
-    units.push_back(figures(engines[engine], platform.table_loader().clock(engine),
-                            platform.table_loader().occupancy(engine, end)));
+    units.push_back(
+        figures(engines[engine], platform.table_loader().clock(engine), platform.books().table_loaders[engine]));
   return units;
 }
 
 std::vector<LinkFigures> link_figures(Imogene& platform) {
   std::vector<LinkFigures> figures;
   const double seconds = static_cast<double>(platform.end_ps() - platform.start_ps()) * 1e-12;
-  for (const stream::Link& link : platform.links()) {
+  for (const stream::Link& link : platform.books().links) {
     LinkFigures f{link.name(), link.bits(), link.clock().frequency_hz(), link.bytes(), link.peak_bytes_per_second()};
     const double bytes = static_cast<double>(link.bytes());
     const double active = link.clock().seconds(link.active());

@@ -28,6 +28,7 @@ struct Answer {
   Bottleneck bottleneck;
   std::uint64_t latency_frames = 0;       // from the start of an animation frame to its picture's first line
   std::uint64_t initial_load_frames = 0;  // video frames before the first picture
+  bool display_works = true;              // every unit behind the host keeps its deadlines
   std::vector<std::string> limits;        // one sentence for everything that keeps the machine from its rate
 };
 
@@ -47,8 +48,9 @@ struct Budget {
   double available = 0.0;
   std::string unit;  // "cycles", "us", "flop", "bytes", "words", "processors", "ns"
   bool fits = false;
-  bool applies = true;  // this machine depends on it; false: stated for comparison
-  std::string source;   // formula or paper
+  bool applies = true;   // this machine depends on it; false: stated for comparison
+  std::string source;    // formula or paper
+  std::string moved_by;  // the parameters that change it
 };
 
 struct LinkFigures {

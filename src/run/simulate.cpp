@@ -1,5 +1,6 @@
 #include "src/run/simulate.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -65,6 +66,7 @@ FrameFigures figures_of(const imogene::ShownFrame& shown, const frame::Frame& pi
   f.degenerate = shown.triangles.degenerate;
   f.outside = shown.triangles.outside;
   f.pieces = shown.triangles.pieces;
+  f.pieces_dropped = shown.pieces_dropped;
   f.snap_fraction_bits = (shown.guarded ? grids.guarded : grids.on_screen).fraction_bits;
   f.covered_pixels = static_cast<std::uint64_t>(
       std::count_if(pixels.object.begin(), pixels.object.end(), [](std::uint32_t object) { return object != 0; }));
@@ -78,13 +80,23 @@ void add_warnings(const imogene::Imogene& platform, const shading::DeferredShade
   result.warnings = shader.warnings();
   for (const FrameFigures& frame : result.frames)
     if (frame.covered_pixels == 0) {
-      result.warnings.push_back("frame " + std::to_string(frame.frame) +
-                                " shows nothing but the background: no triangle of the scene is in view");
+      result.warnings.push_back(
+          frame.facing == 0
+              ? fmt::format("frame {} shows nothing but the background: no triangle of the scene that faces the viewer "
+                            "is in view",
+                            frame.frame)
+              : fmt::format("frame {} shows nothing but the background, although {} triangles face the viewer",
+                            frame.frame, frame.facing));
       break;
     }
+  std::uint64_t pieces = 0;
+  for (const FrameFigures& frame : result.frames) pieces = std::max(pieces, frame.pieces_dropped);
+  if (pieces > 0)
+    result.warnings.push_back(fmt::format(
+        "up to {} pieces of clipped triangles a frame found no processor and are missing from the picture", pieces));
   if (platform.slots().dropped > 0)
     result.warnings.push_back(std::to_string(platform.slots().dropped) +
-                              " objects found no processor and are missing from the picture");
+                              " objects (triangles) found no processor and are missing from the picture");
   if (shader.counters().short_normals > 0)
     result.warnings.push_back(std::to_string(shader.counters().short_normals) +
                               " pixels had a normal too short for the normaliser and are darker than they should be");
@@ -110,7 +122,6 @@ Result simulate(const Inputs& inputs, const Options& options, const FrameSink& s
   const auto show = [&](const imogene::ShownFrame& shown, const frame::Frame& pixels) {
     const auto entered = std::chrono::steady_clock::now();
     FrameFigures figures = figures_of(shown, pixels, platform->grids());
-    figures.pieces_dropped = platform->animation_unit().pieces_dropped();
     if (options.reference) {
       if (shown.updated) exact.render(shown.pose);
       figures.errors = exact.errors(pixels);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "modules/shading/deferred_shading_module.h"
@@ -20,6 +21,8 @@ using testing::ElementsAre;
 
 constexpr std::uint64_t kMicrosecond = 1'000'000;
 constexpr std::uint64_t kMillisecond = 1000 * kMicrosecond;
+// N.L and N.H; a colour each; one table.
+constexpr std::array<std::uint64_t, 3> kLoaders{2, 3, 1};
 constexpr std::uint64_t kRetracePs = 600 * kMicrosecond;  // 004, section 5.3.6
 
 LightArguments light(double x, double y, double z) {
@@ -111,7 +114,9 @@ struct Machine {
             {"diffuse", 8, clock(p.diffuse_clock_mhz)},
             {"specular", 8, clock(p.specular_clock_mhz)}};
   }
-  TableLoaderModule::Engine engine(std::size_t i) { return {&links[i], stream::OccupancyMeter(links[i].clock())}; }
+  TableLoaderModule::Engine engine(std::size_t i) {
+    return {&links[i], kLoaders[i], stream::OccupancyMeter(links[i].clock())};
+  }
 
   explicit Machine(const LoaderParameters& parameters, std::vector<std::size_t> materials = {0})
       : shader(shading_parameters(), 12, parameters.when == LoadTime::frame ? 2 : 1),
@@ -185,7 +190,7 @@ TEST(TableLoaderModule, TwoBanksLoadedBy68000s) {
                           Edge{50 * kMillisecond + 19'968 * kMicrosecond, true}, Edge{75 * kMillisecond, false}));
   EXPECT_NEAR(m.loader.longest_load_seconds(), 19.968e-3, 1e-9);
   // Each dot-product unit has a loader of its own; both work at the same time.
-  EXPECT_EQ(m.links[0].words(), 2U * 2 * 6144);
+  EXPECT_EQ(m.links[0].words(), 2U * 6144);
   EXPECT_EQ(m.loader.words_sent(), m.shading.words_loaded());
 }
 

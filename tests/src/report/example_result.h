@@ -71,8 +71,8 @@ inline run::Result example_result() {
   r.obtained_refresh_hz = 50.00005;
   r.answer = example_answer();
   r.units = {{"shading", 1e9 / 60.0, 666'666, 524'288, 100'000, 42'000, 378}};
-  r.budgets = {{"line_start", 21.0, 119.0, "cycles", true, true, "004, section 4.2"},
-               {"dot_table.load_68000", 650.25, 600.0, "us", false, false, "004, table 5.3"}};
+  r.budgets = {{"line_start", 21.0, 119.0, "cycles", true, true, "004, section 4.2", "object_processor.slice_bits"},
+               {"dot_table.load_68000", 650.25, 600.0, "us", false, false, "004, table 5.3", "loader.kind"}};
   r.links = {{"boards to decision unit", 32, 33'333'333.3333, 18'446'744'073'709'551'615U, 133'333'333.333,
               27'340'000.0, 30'000'000.0, 0.20505}};
   r.memories = {{"specular table", 16, 4096, 8}};
