@@ -14,7 +14,7 @@ find_program(pkg_config NAMES pkg-config REQUIRED)
 
 # A folder of pkg-config modules: all that the build asks for, but not `NAME`.
 function(copy_modules_without name)
-  foreach(module systemc tlm OpenImageIO)
+  foreach(module systemc tlm OpenImageIO assimp)
     if(NOT module STREQUAL name)
       execute_process(COMMAND ${pkg_config} --variable=pcfiledir ${module} OUTPUT_VARIABLE folder OUTPUT_STRIP_TRAILING_WHITESPACE
         COMMAND_ERROR_IS_FATAL ANY)

@@ -22,15 +22,18 @@ std::array<std::uint64_t, 4> parts(const Occupancy& occupancy) {
   return {occupancy.busy, occupancy.starved, occupancy.blocked, occupancy.idle};
 }
 
-// Cycle by cycle, in integers: cycle n of `megahertz` begins n / megahertz microseconds after the start.
+// Cycle by cycle, in integers: cycle n of `megahertz` begins n / megahertz microseconds after the start, to the nearest
+// picosecond.
 std::array<std::uint64_t, 4> by_cycle(std::uint64_t megahertz, const std::vector<Transition>& transitions,
                                       std::uint64_t begin, std::uint64_t end) {
   std::array<std::uint64_t, 4> count{};
-  for (std::uint64_t n = 0; n * 1'000'000 < end * megahertz; ++n) {
-    if (n * 1'000'000 < begin * megahertz) continue;
+  for (std::uint64_t n = 0;; ++n) {
+    const std::uint64_t start = (2 * n * 1'000'000 + megahertz) / (2 * megahertz);
+    if (start >= end) break;
+    if (start < begin) continue;
     Activity activity = Activity::idle;
     for (const Transition& t : transitions)
-      if (t.picoseconds * megahertz <= n * 1'000'000) activity = t.activity;
+      if (t.picoseconds <= start) activity = t.activity;
     ++count[static_cast<std::size_t>(activity)];
   }
   return count;

@@ -19,8 +19,9 @@ namespace {
 constexpr std::uint64_t kHostPs = 50'000;
 constexpr std::uint64_t kFramePs = 333'333ULL * 60'000;
 constexpr double kDisplayHz = 1e12 / kFramePs;
-constexpr std::uint64_t kWords = 22;     // 21 coefficients and a material
-constexpr std::uint64_t kParkWords = 3;  // one edge is enough
+constexpr std::uint64_t kWords = 22;                    // 21 coefficients and a material
+constexpr std::uint64_t kParkWords = 3;                 // one edge is enough
+constexpr std::uint64_t kTriangleBytes = 4 * (18 + 1);  // three corners of position and normal, and a material
 constexpr std::uint64_t kPieceBytes = 4 * (kWords + 1);
 
 std::uint64_t arithmetic(std::uint64_t flops) { return (40 * flops + 2) / 3; }
@@ -43,8 +44,9 @@ struct UnitWork {
 };
 
 struct UpdateWork {
-  std::uint64_t message_bytes = 0;  // what the animation unit says
-  std::uint64_t placed = 0;         // pieces in its plan
+  std::uint64_t message_bytes = 0;        // what the animation unit says
+  std::vector<std::uint64_t> mesh_bytes;  // of each unit, with the first message; empty later
+  std::uint64_t placed = 0;               // pieces in its plan
   std::vector<UnitWork> units;
 };
 
@@ -53,8 +55,13 @@ std::vector<std::uint64_t> timeline(const UpdateWork& work, const Parents& paren
   const std::size_t count = parents.size();
   const auto parent = [&](std::size_t k) { return static_cast<std::size_t>(parents[k]); };
   std::vector<std::uint64_t> told(count), ready(count), subtree(count, 1), homeless(count), planned(count), done(count);
+  // The link to a unit carries its own meshes and those of the units behind it.
+  std::vector<std::uint64_t> meshes = work.mesh_bytes;
+  meshes.resize(count);
+  for (std::size_t k = count; k-- > 0;)
+    if (parents[k] >= 0) meshes[parent(k)] += meshes[k];
   for (std::size_t k = 0; k < count; ++k) {
-    told[k] = (parents[k] < 0 ? 0 : told[parent(k)]) + message(work.message_bytes);
+    told[k] = (parents[k] < 0 ? 0 : told[parent(k)]) + message(work.message_bytes + meshes[k]);
     ready[k] = told[k] + arithmetic(work.units[k].first_flops);
     homeless[k] = work.units[k].homeless;
   }
@@ -110,6 +117,7 @@ class Units {
       free_slots.push_back(survey.free_slots);
       homeless.insert(homeless.end(), survey.homeless.begin(), survey.homeless.end());
       result.units.push_back({unit.operations().flops() - before, 0, 0, survey.homeless.size()});
+      if (initial) result.mesh_bytes.push_back(kTriangleBytes * unit.triangles());
     }
     const auto placed = host::place_pieces(homeless, free_slots);
     for (std::size_t k = 0; k < units_.size(); ++k) {

@@ -55,6 +55,18 @@ TEST(Metrics, CoverageIsCountedAndNotCompared) {
   EXPECT_EQ(figures.rmse_level, 0.0);
 }
 
+// A missing pixel shows the background, 0, where 100 should be, and counts with the outline: (3 x 100^2) over the 6
+// channels of two pixels.
+TEST(Metrics, MissingPixelsCountWithTheOutline) {
+  Pictures p;
+  p.set(0, 1, 1, 50, 50.0);
+  p.set(1, 0, 2, 0, 100.0);
+  const ErrorFigures figures = compare(p.shown, p.exact, "ideal");
+  EXPECT_EQ(figures.covered_missing, 1U);
+  EXPECT_FALSE(figures.psnr_db.has_value());
+  EXPECT_NEAR(figures.psnr_outline_db.value(), 20 * std::log10(255.0 / std::sqrt(30000.0 / 6)), 1e-10);
+}
+
 // Differences of one pixel's channels 3, 0, 4 (same object); of another's 10, 10, 10 (wrong object); of two others 1
 // and 0. Mean square = (9 + 16 + 300 + 3) / 12 = 328 / 12; two pixels of four differ by more than one level.
 TEST(Metrics, LevelsByHand) {

@@ -28,8 +28,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 TEST(TextReport, FirstLineIsTheAnswer) {
   EXPECT_EQ(lines_of(text_report({example_result(), false})).front(),
             "512x512 at 50 Hz: sustained, 50.0 updates/s; limited by computation unit 3: floating-point operations, 84 "
-            "% of what a frame "
-            "allows; headroom 19 %.");
+            "% used; headroom 19 %.");
 }
 
 TEST(TextReport, SaysThatAMachineDoesNotSustainItsRate) {
@@ -41,7 +40,16 @@ TEST(TextReport, SaysThatAMachineDoesNotSustainItsRate) {
   EXPECT_EQ(answer_sentence(result),
             "512x512 at 50 Hz: NOT sustained, 16.7 updates/s on a display that scans out 50.0 times a second; limited "
             "by computation unit "
-            "3: floating-point operations, 240 % of what a frame allows; short of the required rate by 58 %.");
+            "3: floating-point operations, 240 % used; it allows 58 % less than the required rate.");
+}
+
+TEST(TextReport, SaysWhatIsBrokenWhereTheDisplayDoesNotWork) {
+  run::Result result = example_result();
+  result.answer.sustained = false;
+  result.answer.display_works = false;
+  result.answer.limits = {"adder_delay needs 96 ns and has 60"};
+  EXPECT_TRUE(holds(answer_sentence(result), "NOT sustained"));
+  EXPECT_TRUE(holds(answer_sentence(result), "The picture is not whole: adder_delay needs 96 ns and has 60."));
 }
 
 TEST(TextReport, KnowsAMachineThatNothingLimits) {
