@@ -13,10 +13,6 @@ constexpr std::uint64_t kLightBytes = 4 * 3;
 
 }  // namespace
 
-bool FrameWork::anything() const {
-  return lights_changed || std::any_of(renew.begin(), renew.end(), [](std::uint8_t object) { return object != 0; });
-}
-
 bool Animation::moves() const {
   return send_all_ || scene_.camera_moves ||
          std::any_of(scene_.objects.begin(), scene_.objects.end(),

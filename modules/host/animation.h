@@ -17,8 +17,6 @@ struct FrameWork {
   std::vector<std::uint8_t> renew;  // one an object of the scene: its coefficients must be computed and written
   bool lights_changed = false;      // in eye space: the tables of the shading processor must be loaded
   std::uint64_t message_bytes = 0;
-
-  bool anything() const;
 };
 
 class Animation {

@@ -71,7 +71,6 @@ class Computation {
   const geometry::OperationCounts& operations() const { return operations_; }
   TriangleCounts triangle_counts() const;
   std::size_t triangles() const { return triangles_.size(); }
-  std::uint64_t owned_slots() const { return triangles_.size(); }
 
  private:
   using Number = geometry::Counted<double>;

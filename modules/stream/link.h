@@ -12,14 +12,12 @@ namespace rastertlm::stream {
 
 class Link {
  public:
-  // `bits` cross in parallel in each cycle of `clock`; a word appears `latency` cycles after it was sent.
-  Link(std::string name, unsigned bits, Clock clock, Cycles latency = Cycles(0))
-      : name_(std::move(name)), bits_(bits), clock_(std::move(clock)), latency_(latency) {}
+  // `bits` cross in parallel in each cycle of `clock`.
+  Link(std::string name, unsigned bits, Clock clock) : name_(std::move(name)), bits_(bits), clock_(std::move(clock)) {}
 
   const std::string& name() const { return name_; }
   unsigned bits() const { return bits_; }
   const Clock& clock() const { return clock_; }
-  Cycles latency() const { return latency_; }
 
   // `words` of bits() each crossed in `active` cycles.
   void record(std::uint64_t words, Cycles active) {
@@ -42,7 +40,6 @@ class Link {
   std::string name_;
   unsigned bits_;
   Clock clock_;
-  Cycles latency_;
   std::uint64_t words_ = 0;
   Cycles active_;
 };

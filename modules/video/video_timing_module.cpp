@@ -55,7 +55,9 @@ void VideoTimingModule::run_guarded() {
 void VideoTimingModule::run() {
   for (std::uint64_t video_frame = 0; displayed_ < frames_; ++video_frame) {
     if (!showing_ && video_frame > patience_)
-      throw InputError({"", 0, "host", "the hosts have not finished a first frame after " + std::to_string(patience_) + " video frames"});
+      throw InputError(
+          {"", 0, "host",
+           "the hosts have not finished a first frame after " + std::to_string(patience_) + " video frames"});
     wait(sc_core::SC_ZERO_TIME);  // who finishes at this very instant is in time
     const bool copy = everything_ready();
     if (copy) {

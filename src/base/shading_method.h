@@ -27,7 +27,7 @@ struct ShadingMethodTraits {
   bool subdivides;            // more triangles are made where there is a highlight
   std::string_view platform;  // that offers it, or several: "imogene", "quadratic", "adaptive"; "reference": no
                               // machine, a picture to compare with
-  std::string_view source;  // paper
+  std::string_view source;    // paper
 };
 
 inline constexpr std::array<ShadingMethodTraits, 8> kShadingMethods{{

@@ -45,11 +45,6 @@ std::uint64_t Clock::picoseconds(Cycles n) const {
 
 double Clock::seconds(Cycles n) const { return static_cast<double>(picoseconds(n)) * 1e-12; }
 
-Cycles Clock::cycles_ceil(double seconds) const {
-  // A millionth of a cycle is forgiven: 600 us at 60 ns is 10,000 cycles although neither is a binary fraction.
-  return Cycles(static_cast<std::uint64_t>(std::ceil(seconds * frequency_hz() - 1e-6)));
-}
-
 Cycles Clock::cycles_round(double seconds) const {
   return Cycles(static_cast<std::uint64_t>(std::floor(seconds * frequency_hz() + 0.5)));
 }

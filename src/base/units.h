@@ -44,8 +44,7 @@ class Clock {
   // Counted first, converted once: the end of cycle `n` in picoseconds, rounded to nearest (n * period < 2^63 ps).
   std::uint64_t picoseconds(Cycles n) const;
   double seconds(Cycles n) const;
-  // The whole cycles that begin within `seconds`: ceil(seconds / period), and round(seconds / period).
-  Cycles cycles_ceil(double seconds) const;
+  // round(seconds / period).
   Cycles cycles_round(double seconds) const;
   // The first cycle that starts at or after `picoseconds`.
   Cycles cycles_at(std::uint64_t picoseconds) const;

@@ -74,7 +74,7 @@ void RenderCommand::declare(CLI::App& app) {
           ->type_name("DB"),
       finite_and_positive);
   app.add_flag("--model-everything", model_everything_,
-               "simulate also what the scene does not need; no figure changes");
+               "simulate also what the scene does not need: of the figures, modelled alone changes");
   app.add_flag("--host-figures", host_figures_, "report time and memory of the simulation itself");
   app.add_flag("--no-reference", no_reference_, "do not render the exact pictures, measure no error");
 }

@@ -148,8 +148,8 @@ TEST_F(BadInputTest, SceneBehindTheCameraIsAWarning) {
   write("scene.toml", one_triangle() + "translate = [0.0, -100.0, 0.0]\n");
   const Outcome outcome = run({"render", "machine.toml", "scene.toml", "--out", "o"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              HasSubstr("Warning: frame 0 shows nothing but the background: no triangle of the scene that faces the viewer is in view"));
+  EXPECT_THAT(outcome.out, HasSubstr("Warning: frame 0 shows nothing but the background: no triangle of the scene that "
+                                     "faces the viewer is in view"));
   EXPECT_THAT(file_text(in_work("o/report.txt")), HasSubstr("nothing but the background"));
 }
 

@@ -29,7 +29,7 @@ TEST(Clock, PixelClockOfThePaper) {
   const Clock clock = Clock::from_period_ns("pixel", 60.0);
   EXPECT_EQ(clock.picoseconds(Cycles(512)), 30'720'000U);
   EXPECT_DOUBLE_EQ(clock.period_ns(), 60.0);
-  EXPECT_EQ(clock.cycles_ceil(600e-6), Cycles(10'000));
+  EXPECT_EQ(clock.cycles_round(600e-6), Cycles(10'000));
   EXPECT_EQ(clock.cycles_round(1.0 / 50), Cycles(333'333));
   EXPECT_EQ(clock.name(), "pixel");
 }
