@@ -79,6 +79,11 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
       shader_(machine.shading, machine.object_processor.normal_bits, banks(machine)) {
   if (sc_core::sc_get_time_resolution() != sc_core::sc_time(1, sc_core::SC_PS))
     throw ModelError("platform", 0, "SystemC's time resolution is not 1 ps");
+  constexpr double kMostPicoseconds = 4e18;  // time is counted in 64 bits
+  if (static_cast<double>(options.frames) * static_cast<double>(timing_.clock.picoseconds(timing_.frame)) >
+      kMostPicoseconds)
+    throw InputError({"", 0, "--frames",
+                      fmt::format("{} frames last longer than the 46 days that can be simulated", options.frames)});
   decision_latency_ = decision_unit::latency(machine.decision_unit.topology, machine.processors(),
                                              cycles_of(machine.object_processor.comparator_cycles));
   pixel_latency_ =

@@ -8,6 +8,11 @@
 #include "src/base/fixed_point.h"
 
 namespace rastertlm::imogene {
+namespace {
+
+constexpr std::uint64_t kMostProcessors = std::uint64_t{1} << 31;  // they are numbered in 32 bits
+
+}  // namespace
 
 void Machine::declare(parameter::Table& table) {
   table.integer("schema", schema, {1, 1},
@@ -30,20 +35,29 @@ void Machine::declare(parameter::Table& table) {
 void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
   object_processor.check(diagnostics, file);
   shading.check(object_processor.normal_bits, file, diagnostics);
-  try {
-    snap_grids(*this);
+  const auto gather = [&](const auto& step) {
+    try {
+      step();
+    } catch (const InputError& error) {
+      for (Diagnostic diagnostic : error.diagnostics()) {
+        diagnostic.file = file;
+        diagnostics.add(std::move(diagnostic));
+      }
+    }
+  };
+  gather([&] { snap_grids(*this); });
+  gather([&] {
     const video::Timing timing = video::timing(video);
     const Cycles line_start = object_processor::line_start_cycles(object_processor.slices());
     if (line_start > timing.horizontal_blanking)
-      diagnostics.add({file, 0, "video.pixel_clock_ns",
-                       fmt::format("the line start takes {} pixel clocks, and horizontal blanking has {}",
-                                   line_start.count(), timing.horizontal_blanking.count())});
-  } catch (const InputError& error) {
-    for (Diagnostic diagnostic : error.diagnostics()) {
-      diagnostic.file = file;
-      diagnostics.add(std::move(diagnostic));
-    }
-  }
+      throw InputError({"", 0, "video.pixel_clock_ns",
+                        fmt::format("the line start takes {} pixel clocks, and horizontal blanking has {}",
+                                    line_start.count(), timing.horizontal_blanking.count())});
+  });
+  if (processors() > kMostProcessors)
+    diagnostics.add({file, 0, "host.processors_per_unit",
+                     fmt::format("{} units of {} are more than {} object processors", host.computation_units,
+                                 host.processors_per_unit, kMostProcessors)});
 }
 
 std::uint64_t Machine::processors() const {

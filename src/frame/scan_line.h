@@ -20,7 +20,7 @@ struct FragmentLine {
   std::vector<std::uint16_t> normal_z;
   std::vector<std::uint8_t> material;
   std::vector<std::uint32_t> object;    // observer: number of the object that is seen, from 1; 0 is the background
-  std::vector<std::uint16_t> coverage;  // observer: how many objects cover the pixel
+  std::vector<std::uint16_t> coverage;  // observer: how many objects cover the pixel, modulo 2^16
   std::size_t begin = 0;
   std::size_t end = 0;
 
