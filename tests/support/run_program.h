@@ -41,13 +41,13 @@ class ProgramTest : public testing::Test {
     std::string name = (std::filesystem::temp_directory_path() / "rastertlm_run_XXXXXX").string();
     ASSERT_NE(::mkdtemp(name.data()), nullptr);
     folder_ = name;
-    std::filesystem::create_directories(in_folder("work"));
+    std::filesystem::create_directories(in_folder("run"));
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  // The program runs in `work`; what it prints goes to files beside that.
+  // The program runs in `run`; what it prints goes to files beside that.
   std::string in_folder(const std::string& name) const { return folder_ + '/' + name; }
-  std::string in_work(const std::string& name) const { return folder_ + "/work/" + name; }
+  std::string in_work(const std::string& name) const { return folder_ + "/run/" + name; }
 
   void write(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories(std::filesystem::path(in_work(name)).parent_path());
@@ -103,7 +103,7 @@ class ProgramTest : public testing::Test {
     constexpr mode_t kMode = 0666;
     const int out = ::open(in_folder("stdout").c_str(), O_WRONLY | O_CREAT | O_TRUNC, kMode);
     const int err = ::open(in_folder("stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, kMode);
-    if (::dup2(out, STDOUT_FILENO) < 0 || ::dup2(err, STDERR_FILENO) < 0 || ::chdir(in_folder("work").c_str()) != 0)
+    if (::dup2(out, STDOUT_FILENO) < 0 || ::dup2(err, STDERR_FILENO) < 0 || ::chdir(in_folder("run").c_str()) != 0)
       return;
     if (file_size) {
       const rlimit limit{*file_size, *file_size};
