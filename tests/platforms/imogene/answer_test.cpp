@@ -52,6 +52,20 @@ TEST_F(AnswerTest, ADisplayThatDoesNotKeepUpIsNamed) {
   EXPECT_TRUE(teapot({}, 1).result.answer.display_works);
 }
 
+// Rates whose cycles could not be counted, and units that the simulation has no room for.
+TEST_F(AnswerTest, RefusesRatesAndNumbersThatCannotBeSimulated) {
+  for (const std::string setting : {"host.clock_hz=1", "host.link_mbit_per_s=1e-6", "host.sustained_mflops=1e-300",
+                                    "host.computation_units=65536", "video.refresh_hz=1e-9"}) {
+    try {
+      run::read_inputs(kMachine, kTeapot, {setting});
+      ADD_FAILURE() << setting << " was accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(setting.substr(0, setting.find('='))), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST_F(AnswerTest, NoLinkMovesMoreThanItsPeak) {
   const std::string scene =
       scene_of(std::string(kSphere) + kSpin,

@@ -191,6 +191,25 @@ TEST_F(PieceTest, DropsAndCountsWhatFindsNoProcessor) {
   EXPECT_EQ(error.wrong_object, 0U);
 }
 
+// Every frame turns the object once round: each drops as many pieces as the first, and the machine does not sustain
+// that.
+TEST_F(PieceTest, CountsDroppedPiecesAFrameAndSaysSo) {
+  const std::string cap =
+      scene_of(sphere_at("[0.1, 0.0, 0.2]", "[[object.animation]]\ntype = \"spin\"\ndeg_per_frame = 360.0\n"),
+               std::string(kCamera) + "far = 9.1\n");
+  const Simulated simulated =
+      show(cap, {.set = with(machine(2, kSphereTriangles / 2, "round_robin"), {"host.overflow=drop"}), .frames = 4});
+  const std::uint64_t first = simulated.result.frames.at(0).pieces_dropped;
+  EXPECT_GT(first, 0U);
+  for (const run::FrameFigures& frame : simulated.result.frames) EXPECT_EQ(frame.pieces_dropped, first);
+  const run::Budget& processors = named(simulated.result.budgets, "processors");
+  EXPECT_DOUBLE_EQ(processors.used, static_cast<double>(kSphereTriangles + first));
+  EXPECT_FALSE(processors.fits);
+  EXPECT_FALSE(simulated.result.answer.sustained);
+  ASSERT_EQ(simulated.result.warnings.size(), 1U);
+  EXPECT_NE(simulated.result.warnings[0].find(std::to_string(first) + " pieces"), std::string::npos);
+}
+
 TEST_F(PieceTest, RefusesMoreObjectsThanProcessorsWithBothNumbers) {
   try {
     show(scene_, {.set = machine(2, 300, "round_robin")});
