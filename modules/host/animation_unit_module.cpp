@@ -33,7 +33,7 @@ std::vector<shading::LightArguments> light_arguments(const geometry::Pose& pose)
 
 AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation,
                                          const HostCost& cost, std::size_t children, std::size_t units,
-                                         Overflow overflow, Timeline timeline, std::vector<stream::Link*> links,
+                                         Overflow overflow, Timeline timeline, const std::vector<stream::Link*>& links,
                                          InitialLoad initial_load, stream::Link* light_link)
     : sc_module(name),
       down("down", children),
@@ -44,10 +44,10 @@ AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, co
       units_(units),
       overflow_(overflow),
       timeline_(std::move(timeline)),
-      links_(std::move(links)),
       initial_load_(std::move(initial_load)),
-      light_link_(light_link),
+      light_link_{light_link},
       meter_(cost.clock()) {
+  for (stream::Link* link : links) links_.push_back({link});
   for (auto& socket : up) socket.register_b_transport(this, &AnimationUnitModule::receive);
   SC_HAS_PROCESS(AnimationUnitModule);
   SC_THREAD(run_guarded);
@@ -84,11 +84,11 @@ void AnimationUnitModule::announce_frame(std::int64_t animation_frame, bool init
   Message& message = payload_.message;
   message.kind = Message::Kind::frame;
   message.work = work_.get();
-  announce_lights();
   for (std::size_t i = 0; i < down.size(); ++i) {
     message.bytes = work_->message_bytes + (initial && i < initial_load_.size() ? initial_load_[i] : 0);
-    send(down[i], payload_, cost_, *links_[i]);
+    send(down[i], payload_, cost_, links_[i], meter_);
   }
+  announce_lights();
 }
 
 void AnimationUnitModule::announce_lights() {
@@ -96,11 +96,8 @@ void AnimationUnitModule::announce_lights() {
   light_payload_.will_change = animation_.lights_change();
   light_payload_.lights = light_arguments(work_->pose);
   sc_core::sc_time delay;
-  if (light_link_ != nullptr && light_payload_.changed) {
-    const std::uint64_t bytes = shading::light_message_bytes(light_payload_.lights.size());
-    light_link_->record(bytes, Cycles(bytes));
-    delay = stream::to_time(cost_.clock(), cost_.message(bytes));
-  }
+  if (light_link_.link != nullptr && light_payload_.changed)
+    delay = start_message(shading::light_message_bytes(light_payload_.lights.size()), cost_, light_link_, meter_);
   loader->b_transport(light_payload_, delay);
 }
 
@@ -125,7 +122,7 @@ void AnimationUnitModule::settle_plan() {
   message.placed = &placed_;
   message.bytes = kFlagBytes;
   for (const auto& pieces : placed_) message.bytes += kPieceBytes * pieces.size();
-  for (std::size_t i = 0; i < down.size(); ++i) send(down[i], payload_, cost_, *links_[i]);
+  for (std::size_t i = 0; i < down.size(); ++i) send(down[i], payload_, cost_, links_[i], meter_);
 }
 
 void AnimationUnitModule::receive(MessagePayload& payload, sc_core::sc_time& delay) {

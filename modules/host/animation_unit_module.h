@@ -29,7 +29,7 @@ class AnimationUnitModule : public sc_core::sc_module {
 
   AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation, const HostCost& cost,
                       std::size_t children, std::size_t units, Overflow overflow, Timeline timeline,
-                      std::vector<stream::Link*> links, InitialLoad initial_load = {},
+                      const std::vector<stream::Link*>& links, InitialLoad initial_load = {},
                       stream::Link* light_link = nullptr);
 
   // The frame that the machine shows after the next swap.
@@ -51,9 +51,9 @@ class AnimationUnitModule : public sc_core::sc_module {
   std::size_t units_;
   Overflow overflow_;
   Timeline timeline_;
-  std::vector<stream::Link*> links_;
+  std::vector<LinkPort> links_;
   InitialLoad initial_load_;
-  stream::Link* light_link_;  // to the table loader; none: its messages take no time
+  LinkPort light_link_;  // to the table loader; none: its messages take no time
   std::unique_ptr<FrameWork> work_;
   MessagePayload payload_;
   shading::LightPayload light_payload_;

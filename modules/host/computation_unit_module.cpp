@@ -14,9 +14,15 @@ using stream::Activity;
 using stream::picoseconds_now;
 using stream::wait_until;
 
+namespace {
+
+std::uint64_t words_of(const Load& load) { return load.park ? kParkWords : object_processor::kWords; }
+
+}  // namespace
+
 ComputationUnitModule::ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit,
                                              Computation& computation, const HostCost& cost, std::size_t children,
-                                             const sc_core::sc_event& swapped, Links links)
+                                             const sc_core::sc_event& swapped, Links links, const CopyTimes& copies)
     : sc_module(name),
       from_above("from_above"),
       to_above("to_above"),
@@ -29,7 +35,10 @@ ComputationUnitModule::ComputationUnitModule(const sc_core::sc_module_name& name
       cost_(cost),
       swapped_(swapped),
       links_(std::move(links)),
+      copies_(copies),
+      above_{links_.above},
       meter_(cost.clock()) {
+  for (stream::Link* link : links_.below) below_.push_back({link});
   from_above.register_b_transport(this, &ComputationUnitModule::receive_from_above);
   for (auto& socket : up) socket.register_b_transport(this, &ComputationUnitModule::receive_from_below);
   write_payload_.set_command(tlm::TLM_WRITE_COMMAND);
@@ -49,12 +58,14 @@ void ComputationUnitModule::run_guarded() {
 // 2. transform the triangles, and report whether the frame needs the guard band;
 // 3. receive the frame's grid, and forward it;
 // 4. fit the coefficients, and write them to the loading RAMs;
-// 5. be ready until the retrace that copies them.
+// 5. be ready until the retrace at which all are.
 void ComputationUnitModule::run() {
   ready.write(false);
-  for (bool first = true;; first = false) {
+  for (;; first_ = false) {
     meter_.enter(Activity::starved, picoseconds_now());
     Message message = take(Message::Kind::frame);
+    update_ = {};
+    update_.animation_frame = message.work->animation_frame;
     forward(message);
     work_on_frame(*message.work);
     update_.cycles = cycles_since_swap();
@@ -63,7 +74,7 @@ void ComputationUnitModule::run() {
     meter_.enter(Activity::idle, picoseconds_now());
     wait(swapped_);
     swap_ps_ = picoseconds_now();
-    if (first) meter_.restart(swap_ps_);
+    if (first_) meter_.restart(swap_ps_);
     ready.write(false);
   }
 }
@@ -75,8 +86,6 @@ Cycles ComputationUnitModule::cycles_since_swap() const {
 }
 
 void ComputationUnitModule::work_on_frame(const FrameWork& work) {
-  update_ = {};
-  update_.animation_frame = work.animation_frame;
   geometry::OperationCounts before = computation_.operations();
   Survey survey = computation_.survey(work);
   spend_computing(before);
@@ -94,31 +103,54 @@ void ComputationUnitModule::work_on_frame(const FrameWork& work) {
 void ComputationUnitModule::spend_computing(const geometry::OperationCounts& before) {
   const geometry::OperationCounts counts = computation_.operations() - before;
   const Cycles cycles = cost_.compute(counts);
-  update_.flops += counts.flops();
+  update_.operations += counts;
   update_.computing += cycles;
   meter_.enter(Activity::busy, picoseconds_now());
   wait(stream::to_time(cost_.clock(), cycles));
 }
 
-// The words of a frame go to the bus as bursts with their time annotated; time passes once, at the end: nothing reads a
-// loading RAM before the unit is ready.
+// Nothing reads a loading RAM but a copy: the words that the bus moves before the next one are written at once, and
+// their time passes afterwards.
 void ComputationUnitModule::write_all(const std::vector<Load>& loads) {
   std::uint64_t words = 0;
-  for (const Load& load : loads) words += write(load);
-  const Cycles cycles = cost_.bus(words);
-  links_.bus->record(words, Cycles(words));  // its clock moves a word a cycle
+  for (const Load& load : loads) words += words_of(load);
   update_.words += words;
-  update_.writing += cycles;
-  words_sent_ += words;
-  wait(stream::to_time(cost_.clock(), cycles));
+  load_ = word_ = 0;
+  const BusSchedule schedule =
+      first_ ? BusSchedule(cost_.clock()) : BusSchedule(cost_.clock(), copies_, swap_ps_);
+  for (BusBurst burst(schedule, words, cost_.word(), cycles_since_swap()); !burst.done();) {
+    const BusBurst::Step step = burst.step();
+    write_words(loads, step.words);
+    words_sent_ += step.words;
+    links_.bus->record(cost_.bus_words(step.words), Cycles(cost_.bus_words(step.words)));  // its clock: a word a cycle
+    update_.writing += step.busy;
+    update_.stalled += step.blocked;
+    const bool stands_still = step.blocked > Cycles(0);
+    meter_.enter(stands_still ? Activity::blocked : Activity::busy, picoseconds_now());
+    wait_until(schedule.picoseconds(burst.cycle()));
+  }
 }
 
-std::uint64_t ComputationUnitModule::write(const Load& load) {
+void ComputationUnitModule::write_words(const std::vector<Load>& loads, std::uint64_t count) {
+  while (count > 0) {
+    const Load& load = loads[load_];
+    const std::uint64_t left = words_of(load) - word_;
+    const std::uint64_t now = std::min(left, count);
+    write(load, word_, now);
+    count -= now;
+    word_ += now;
+    if (now < left) continue;
+    ++load_;
+    word_ = 0;
+  }
+}
+
+// A burst of consecutive words of a slot.
+void ComputationUnitModule::write(const Load& load, std::size_t first_word, std::size_t count) {
   object_processor::ProcessorWords words = object_processor::to_words(load.words);
-  const std::uint64_t count = load.park ? kParkWords : words.size();
   object_number_.object = load.park ? 0 : load.object + 1;
-  write_payload_.set_address(object_processor::bus_address(unit_, load.slot, 0));
-  write_payload_.set_data_ptr(reinterpret_cast<unsigned char*>(words.data()));
+  write_payload_.set_address(object_processor::bus_address(unit_, load.slot, first_word));
+  write_payload_.set_data_ptr(reinterpret_cast<unsigned char*>(words.data() + first_word));
   write_payload_.set_data_length(static_cast<unsigned>(count * sizeof(std::uint32_t)));
   write_payload_.set_streaming_width(write_payload_.get_data_length());
   write_payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
@@ -127,7 +159,6 @@ std::uint64_t ComputationUnitModule::write(const Load& load) {
   if (write_payload_.is_response_error())
     throw ModelError(name(), cost_.clock().cycles_at(picoseconds_now()).count(),
                      "the board refused a bus write: " + write_payload_.get_response_string());
-  return count;
 }
 
 Message ComputationUnitModule::take(Message::Kind kind) {
@@ -147,8 +178,14 @@ void ComputationUnitModule::forward(Message message) {
   const bool with_meshes = sent.kind == Message::Kind::frame && sent.work->initial && !links_.resident_below.empty();
   for (std::size_t i = 0; i < down.size(); ++i) {
     if (with_meshes) payload.message.bytes = sent.work->message_bytes + links_.resident_below[i];
-    send(down[i], payload, cost_, *links_.below[i]);
+    send_on(down[i], payload, below_[i]);
   }
+}
+
+void ComputationUnitModule::send_on(MessageInitiator<ComputationUnitModule>& socket, MessagePayload& payload,
+                                    LinkPort& port) {
+  send(socket, payload, cost_, port, meter_);
+  update_.starting += cost_.link_set_up();
 }
 
 // One message up: the own survey with those of the units below, when they have come.
@@ -168,7 +205,7 @@ void ComputationUnitModule::report(Survey own) {
   message.bytes = survey_bytes(message);
   surveys_ = 0;
   subtree_.guarded = false;
-  send(to_above, payload, cost_, *links_.above);
+  send_on(to_above, payload, above_);
 }
 
 void ComputationUnitModule::receive_from_above(MessagePayload& payload, sc_core::sc_time& delay) {

@@ -9,6 +9,7 @@
 #include <systemc>
 #include <vector>
 
+#include "modules/host/bus_schedule.h"
 #include "modules/host/serial_links_module.h"
 #include "modules/object_processor/object_number_payload.h"
 #include "modules/stream/occupancy.h"
@@ -31,8 +32,10 @@ class ComputationUnitModule : public sc_core::sc_module {
     std::vector<std::uint64_t> resident_below = {};  // bytes of meshes for the units behind each link below
   };
 
+  // `swapped`: at a retrace at which every unit had finished; `copies`: when its board takes no words.
   ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit, Computation& computation,
-                        const HostCost& cost, std::size_t children, const sc_core::sc_event& swapped, Links links);
+                        const HostCost& cost, std::size_t children, const sc_core::sc_event& swapped, Links links,
+                        const CopyTimes& copies);
   ~ComputationUnitModule() override {
     write_payload_.clear_extension(&object_number_);
   }  // it is a member, not the payload's to free
@@ -41,10 +44,13 @@ class ComputationUnitModule : public sc_core::sc_module {
   struct Update {
     std::int64_t animation_frame = 0;
     Cycles cycles;     // all of it
-    Cycles computing;  // of which arithmetic
+    Cycles computing;  // of which arithmetic,
+    Cycles starting;   // starts of messages,
     Cycles writing;    // and bus
-    std::uint64_t flops = 0;
+    Cycles stalled;    // while the boards copied
+    geometry::OperationCounts operations;
     std::uint64_t words = 0;
+    std::uint64_t flops() const { return operations.flops(); }
   };
   const std::vector<Update>& updates() const { return updates_; }
   std::uint64_t words_sent() const { return words_sent_; }
@@ -60,7 +66,9 @@ class ComputationUnitModule : public sc_core::sc_module {
   void work_on_frame(const FrameWork& work);
   void spend_computing(const geometry::OperationCounts& before);
   void write_all(const std::vector<Load>& loads);
-  std::uint64_t write(const Load& load);
+  void write_words(const std::vector<Load>& loads, std::uint64_t count);
+  void write(const Load& load, std::size_t first_word, std::size_t count);
+  void send_on(MessageInitiator<ComputationUnitModule>& socket, MessagePayload& payload, LinkPort& port);
   void receive_from_above(MessagePayload& payload, sc_core::sc_time& delay);
   void receive_from_below(MessagePayload& payload, sc_core::sc_time& delay);
 
@@ -69,6 +77,9 @@ class ComputationUnitModule : public sc_core::sc_module {
   const HostCost& cost_;
   const sc_core::sc_event& swapped_;
   Links links_;
+  CopyTimes copies_;
+  LinkPort above_;
+  std::vector<LinkPort> below_;
 
   struct Letter {
     Message message;
@@ -83,7 +94,10 @@ class ComputationUnitModule : public sc_core::sc_module {
 
   tlm::tlm_generic_payload write_payload_;
   object_processor::ObjectNumber object_number_;
+  std::size_t load_ = 0;  // of the frame's loads, the one that is being written
+  std::size_t word_ = 0;  // and how many words of it are
   Update update_;
+  bool first_ = true;          // the initial load: nothing is copied meanwhile
   std::uint64_t swap_ps_ = 0;  // the retrace that started the current update; 0 for the first
   std::vector<Update> updates_;
   std::uint64_t words_sent_ = 0;

@@ -1,7 +1,6 @@
 // What work costs a host processor, in cycles of its clock.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "modules/host/parameters.h"
@@ -13,34 +12,39 @@ namespace rastertlm::host {
 // Cycles are rounded up a piece of work, never a single operation.
 class HostCost {
  public:
-  explicit HostCost(const HostParameters& parameters)
-      : clock_(Clock::from_frequency_hz("host clock", static_cast<std::uint64_t>(parameters.clock_hz))),
-        cycles_per_flop_(static_cast<double>(parameters.clock_hz) / (parameters.sustained_mflops * 1e6)),
-        bus_cycles_per_word_(static_cast<std::uint64_t>(parameters.bus_cycles_per_word)),
-        link_cycles_per_byte_(static_cast<double>(parameters.clock_hz) * parameters.link_bits_per_byte /
-                              (parameters.link_mbit_per_s * 1e6)),
-        link_set_up_(static_cast<std::uint64_t>(parameters.link_set_up_cycles)) {}
+  // `coefficient_bits`: width of what is written to a loading RAM.
+  explicit HostCost(const HostParameters& parameters, std::int64_t coefficient_bits = 24);
 
   const Clock& clock() const { return clock_; }
-  // Sustained: every floating-point operation costs clock / rate cycles, integer work and loads included.
-  Cycles compute(const geometry::OperationCounts& counts) const {
-    return up(static_cast<double>(counts.flops()) * cycles_per_flop_);
-  }
-  Cycles bus(std::uint64_t words) const { return Cycles(words * bus_cycles_per_word_); }
-  // A message of `bytes` from one processor to the next.
-  Cycles message(std::uint64_t bytes) const {
-    return Cycles(link_set_up_) + up(static_cast<double>(bytes) * link_cycles_per_byte_);
-  }
-  double cycles_per_flop() const { return cycles_per_flop_; }
+  // Sustained: every floating-point operation costs clock / rate cycles, integer work and loads included. By
+  // instructions: each operation its own, and its operand.
+  Cycles compute(const geometry::OperationCounts& counts) const;
+  // `words`: coefficients and material words; each takes word() on the bus.
+  Cycles bus(std::uint64_t words) const { return word_ * words; }
+  Cycles word() const { return word_; }
+  std::uint64_t bus_words(std::uint64_t words) const { return words * bus_words_a_word_; }
+  // What the sender's processor spends to start a message.
+  Cycles link_set_up() const { return link_set_up_; }
+  // A message of `bytes` on its way from one processor to the next.
+  Cycles transfer(std::uint64_t bytes) const;
+  // Bit times a byte, in full packets: a link's bytes take no less.
+  double link_bits_per_byte() const;
+  // A message in cycles of a clock that ticks once in link_bits_per_byte() bit times, rounded up.
+  Cycles link_cycles(std::uint64_t bytes) const;
+  // The mean of the operations counted, by this model.
+  double cycles_per_flop(const geometry::OperationCounts& counts) const;
 
  private:
-  static Cycles up(double cycles) { return Cycles(static_cast<std::uint64_t>(std::ceil(cycles - 1e-6))); }
+  double cycles(const geometry::OperationCounts& counts) const;
+  double link_bits(std::uint64_t bytes) const;
 
+  HostParameters parameters_;
   Clock clock_;
-  double cycles_per_flop_;
-  std::uint64_t bus_cycles_per_word_;
-  double link_cycles_per_byte_;
-  std::uint64_t link_set_up_;
+  double cycles_per_flop_;  // sustained
+  std::uint64_t bus_words_a_word_;
+  Cycles word_;
+  double cycles_per_bit_;
+  Cycles link_set_up_;
 };
 
 }  // namespace rastertlm::host

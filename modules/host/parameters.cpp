@@ -1,17 +1,38 @@
 #include "modules/host/parameters.h"
 
+#include <fmt/format.h>
+
 namespace rastertlm::host {
+
+void InstructionCycles::declare(parameter::Table& table) {
+  const auto cycles = [&table](const std::string& name, double& target, const std::string& what) {
+    table.real("host.instruction." + name, target, {0.0, 1e6},
+               {.unit = "cycles",
+                .description = "Host clock cycles of " + what + '.',
+                .moves = "answer.update_rate_hz",
+                .only_when = parameter::Condition{"host.cost", {"instructions"}}});
+  };
+  cycles("add", add, "a floating-point addition or subtraction");
+  cycles("multiply", multiply, "a floating-point multiplication");
+  cycles("divide", divide, "a floating-point division");
+  cycles("square_root", square_root, "a square root");
+  cycles("compare", compare, "a floating-point comparison");
+  cycles("convert", convert, "a conversion between integer and floating point");
+  cycles("integer", integer, "an integer addition, shift or logical operation");
+  cycles("integer_multiply", integer_multiply, "an integer multiplication");
+  cycles("operand", operand, "bringing the second operand of an addition, multiplication, division or comparison");
+}
 
 void HostParameters::declare(parameter::Table& table) {
   table.text("host.preset", preset,
              {.unit = "",
               .description = "Processor of the host: sets the host keys that the file does not.",
               .moves = "answer.update_rate_hz"});
-  table.choice("host.cost", cost, {"sustained"},
+  table.choice("host.cost", cost, {"sustained", "instructions"},
                {.unit = "",
-                .description = "What an operation costs: every floating-point operation at the sustained rate.",
-                .moves = "answer.update_rate_hz",
-                .exempt = true});
+                .description = "What an operation costs: every floating-point operation at the sustained rate, or each "
+                               "by the table of instructions.",
+                .moves = "answer.update_rate_hz"});
   table.integer("host.computation_units", computation_units, {1, 16384},
                 {.unit = "units",
                  .description = "Computation units, each with an object board of its own.",
@@ -26,14 +47,25 @@ void HostParameters::declare(parameter::Table& table) {
   table.real("host.sustained_mflops", sustained_mflops, {0.001, 1e9},
              {.unit = "Mflop/s",
               .description = "Sustained floating-point rate, loads and integer work included.",
-              .moves = "answer.update_rate_hz"});
+              .moves = "answer.update_rate_hz",
+              .only_when = parameter::Condition{"host.cost", {"sustained"}}});
+  instruction.declare(table);
+  table.integer("host.bus_bits", bus_bits, {8, 64},
+                {.unit = "bits",
+                 .description = "Width of the bus to the object board: a coefficient that is wider takes several words.",
+                 .moves = "links[] bus, units[] busy"});
   table.integer("host.bus_cycles_per_word", bus_cycles_per_word, {1, 10000},
                 {.unit = "cycles",
                  .description = "Host clock cycles of one word written to a loading RAM.",
                  .moves = "links[] bus, units[] busy"});
-  table.integer(
-      "host.links", links, {2, 64},
-      {.unit = "links", .description = "Serial links of a host processor.", .moves = "depth of the link tree"});
+  table.integer("host.links", links, {2, 64},
+                {.unit = "links",
+                 .description = "Serial links of a host processor that the topology uses: one to whoever feeds it.",
+                 .moves = "depth of the link tree"});
+  table.integer("host.links_available", links_available, {2, 64},
+                {.unit = "links",
+                 .description = "Serial links that the host processor has.",
+                 .moves = "which host.links are accepted"});
   table.choice("host.link_topology", link_topology, {"tree", "chain"},
                {.unit = "",
                 .description =
@@ -45,9 +77,19 @@ void HostParameters::declare(parameter::Table& table) {
              {.unit = "bits",
               .description = "Bit times that a byte takes, start, stop and acknowledge included.",
               .moves = "links[] host links"});
+  table.integer("host.link_packet_bytes", link_packet_bytes, {1, 65536},
+                {.unit = "bytes",
+                 .description = "Most bytes of a packet on a link.",
+                 .moves = "links[] host links, where a packet has bits of its own"});
+  table.real("host.link_packet_bits", link_packet_bits, {0.0, 10000.0},
+             {.unit = "bits",
+              .description = "Bit times that a packet takes beside its bytes: header, end and acknowledge.",
+              .moves = "links[] host links"});
   table.integer(
       "host.link_set_up_cycles", link_set_up_cycles, {0, 1'000'000},
-      {.unit = "cycles", .description = "Host clock cycles to start a message on a link.", .moves = "units[] starved"});
+      {.unit = "cycles",
+       .description = "Host clock cycles of the processor to start a message on a link.",
+       .moves = "units[] busy"});
   table.choice("host.assignment", assignment, {"round_robin", "block"},
                {.unit = "",
                 .description = "Object i goes to board i mod B, or boards are filled in turn.",
@@ -61,6 +103,18 @@ void HostParameters::declare(parameter::Table& table) {
       {.unit = "",
        .description = "More objects than processors: refuse, or leave out what found no processor and count it.",
        .moves = "picture, modelled.left_out"});
+  table.choice("host.swap", swap, {"global", "unconditional"},
+               {.unit = "",
+                .description = "Loading RAMs are copied at the first retrace at which every unit has finished, or at "
+                               "every retrace, finished or not.",
+                .moves = "picture of a late host, images[].torn"});
+}
+
+void HostParameters::check(Diagnostics& diagnostics, const std::string& file) const {
+  if (links > links_available)
+    diagnostics.add({file, 0, "host.links",
+                     fmt::format("is {}, and the host processor{} has {} serial links (host.links_available)", links,
+                                 preset.empty() ? "" : " " + preset, links_available)});
 }
 
 }  // namespace rastertlm::host

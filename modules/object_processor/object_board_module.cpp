@@ -54,6 +54,8 @@ void ObjectBoardModule::synchronise(stream::SyncPayload& payload, sc_core::sc_ti
     if (payload.copy) {
       board_.copy();
       ++copies_;
+      if (payload.swap) words_swapped_ = words_loaded_;
+      words_ahead_ = words_loaded_ - words_swapped_;
     }
     return;
   }

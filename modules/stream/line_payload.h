@@ -32,6 +32,7 @@ struct SyncPayload : tlm::tlm_generic_payload {
   std::uint64_t frame = 0;
   std::size_t line = 0;
   bool copy = false;  // retrace: loading RAMs go to backup RAMs
+  bool swap = false;  // retrace: they hold a whole frame, with which the hosts have finished
   bool switch_tables =
       false;  // retrace: set by the table loader for the shading processor behind it: use the other bank
 };

@@ -12,14 +12,15 @@ using stream::SyncPayload;
 
 VideoTimingModule::VideoTimingModule(const sc_core::sc_module_name& name, const Timing& timing, std::size_t lines,
                                      std::size_t listeners, std::size_t computation_units, std::uint64_t frames,
-                                     std::uint64_t patience)
+                                     std::uint64_t patience, Copy copy)
     : sc_module(name),
       sync("sync", listeners),
       ready("ready", computation_units),
       timing_(timing),
       lines_(lines),
       frames_(frames),
-      patience_(patience) {
+      patience_(patience),
+      copy_(copy) {
   SC_HAS_PROCESS(VideoTimingModule);
   SC_THREAD(run_guarded);
 }
@@ -28,17 +29,31 @@ bool VideoTimingModule::everything_ready() const {
   return tables_ready.read() && std::all_of(ready.begin(), ready.end(), [](const auto& unit) { return unit.read(); });
 }
 
-void VideoTimingModule::announce(SyncPayload::Kind kind, std::uint64_t frame, std::size_t line, bool copy,
-                                 Cycles since_frame_start) {
+void VideoTimingModule::announce(SyncPayload::Kind kind, std::size_t line, Cycles since_frame_start) {
   payload_.kind = kind;
-  payload_.frame = frame;
+  payload_.frame = displayed_;
   payload_.line = line;
-  payload_.copy = copy;
-  payload_.switch_tables = false;
   for (auto& socket : sync) {
     sc_core::sc_time delay = stream::to_time(timing_.clock, since_frame_start);
     socket->b_transport(payload_, delay);
   }
+}
+
+void VideoTimingModule::begin_retrace(std::uint64_t video_frame) {
+  payload_.swap = everything_ready();
+  if (payload_.swap) {
+    if (!showing_) {
+      first_frame_ps_ = stream::picoseconds_now();
+      frames_before_first_ = video_frame;
+    }
+    showing_ = true;
+    ++updates_;
+  }
+  payload_.copy = payload_.swap || (showing_ && copy_ == Copy::at_every_retrace);
+  payload_.switch_tables = false;
+  announce(SyncPayload::Kind::retrace, 0, Cycles(0));
+  if (payload_.swap) swapped.notify(sc_core::SC_ZERO_TIME);
+  payload_.copy = payload_.swap = payload_.switch_tables = false;
 }
 
 void VideoTimingModule::run_guarded() {
@@ -46,7 +61,8 @@ void VideoTimingModule::run_guarded() {
 }
 
 // A frame:
-// 1. the retrace begins; where all is ready, loading RAMs are copied and tables switched, and the hosts may go on;
+// 1. the retrace begins; where all is ready, loading RAMs are copied and tables switched, and the hosts may go on
+//    (where loading RAMs are copied at every retrace, they are, ready or not);
 // 2. its lines are announced with their times as delays: nothing that a line reads can change before the next retrace,
 // so the kernel need
 //    not stop at each;
@@ -59,20 +75,10 @@ void VideoTimingModule::run() {
           {"", 0, "host",
            "the hosts have not finished a first frame after " + std::to_string(patience_) + " video frames"});
     wait(sc_core::SC_ZERO_TIME);  // who finishes at this very instant is in time
-    const bool copy = everything_ready();
-    if (copy) {
-      if (!showing_) {
-        first_frame_ps_ = stream::picoseconds_now();
-        frames_before_first_ = video_frame;
-      }
-      showing_ = true;
-      ++updates_;
-    }
-    announce(SyncPayload::Kind::retrace, displayed_, 0, copy, Cycles(0));
-    if (copy) swapped.notify(sc_core::SC_ZERO_TIME);
+    begin_retrace(video_frame);
     if (showing_) {
       for (std::size_t line = 0; line < lines_; ++line)
-        announce(SyncPayload::Kind::line, displayed_, line, false, timing_.line_start(line));
+        announce(SyncPayload::Kind::line, line, timing_.line_start(line));
       ++displayed_;
       sc_core::sc_pause();
     }

@@ -19,15 +19,21 @@ class VideoTimingModule : public sc_core::sc_module {
   sc_core::sc_vector<SyncSocket> sync;                // one a listener, served in order
   sc_core::sc_vector<sc_core::sc_in<bool>> ready;     // one a computation unit: its loading RAMs hold the next frame
   sc_core::sc_in<bool> tables_ready{"tables_ready"};  // the bank that is being written holds the next frame's tables
-  sc_core::sc_event swapped;                          // at a retrace that copied
+  sc_core::sc_event swapped;                          // at a retrace at which everything was ready
 
-  // Shows `frames` frames, the first at the first retrace at which everything is ready. Gives up with a ModelError
+  enum class Copy {
+    when_ready,       // at the retraces at which everything is ready: until then the old picture stays
+    at_every_retrace  // from the first picture on, whatever stands in the loading RAMs
+  };
+
+  // Shows `frames` frames, the first at the first retrace at which everything is ready. Gives up with an InputError
   // after `patience` frames without a first picture.
   VideoTimingModule(const sc_core::sc_module_name& name, const Timing& timing, std::size_t lines, std::size_t listeners,
-                    std::size_t computation_units, std::uint64_t frames, std::uint64_t patience);
+                    std::size_t computation_units, std::uint64_t frames, std::uint64_t patience,
+                    Copy copy = Copy::when_ready);
 
-  // Picoseconds at which the first displayed frame's retrace began, and the number of displayed frames that showed new
-  // coefficients.
+  // Picoseconds at which the first displayed frame's retrace began, and the number of displayed frames that began with
+  // everything ready.
   std::uint64_t first_frame_ps() const { return first_frame_ps_; }
   std::uint64_t updates() const { return updates_; }
   std::uint64_t frames_before_first() const { return frames_before_first_; }
@@ -40,13 +46,14 @@ class VideoTimingModule : public sc_core::sc_module {
   void run_guarded();
   void run();
   bool everything_ready() const;
-  void announce(stream::SyncPayload::Kind kind, std::uint64_t frame, std::size_t line, bool copy,
-                Cycles since_frame_start);
+  void begin_retrace(std::uint64_t video_frame);
+  void announce(stream::SyncPayload::Kind kind, std::size_t line, Cycles since_frame_start);
 
   Timing timing_;
   std::size_t lines_;
   std::uint64_t frames_;
   std::uint64_t patience_;
+  Copy copy_;
   stream::SyncPayload payload_;
   std::uint64_t displayed_ = 0;
   std::uint64_t updates_ = 0;

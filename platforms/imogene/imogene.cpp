@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "modules/object_processor/microprogram.h"
 #include "modules/shading/loader_budget.h"
 #include "modules/stream/failure.h"
 #include "modules/stream/simulated_time.h"
@@ -71,7 +72,7 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
       sink_(std::move(sink)),
       timing_(video::timing(machine.video)),
       grids_(snap_grids(machine)),
-      cost_(machine.host),
+      cost_(machine.host, machine.object_processor.word_bits),
       slots_(host::assign_objects(scene.triangle_count(), machine.host)),
       resident_(resident_scene(machine, scene)),
       animation_(resident_, machine.host.send == host::Send::all),
@@ -148,9 +149,8 @@ stream::Link& Imogene::add_link(const std::string& name, unsigned bits, const Cl
 
 void Imogene::build_links() {
   const auto units = static_cast<std::size_t>(machine_.host.computation_units);
-  // A link moves one byte in link_bits_per_byte bit times.
   const Clock byte_clock =
-      Clock::from_period_ns("link bytes", 1e3 * machine_.host.link_bits_per_byte / machine_.host.link_mbit_per_s);
+      Clock::from_period_ns("link bytes", 1e3 * cost_.link_bits_per_byte() / machine_.host.link_mbit_per_s);
   const Clock bus_clock =
       Clock::slower("bus words", cost_.clock(), static_cast<std::uint64_t>(machine_.host.bus_cycles_per_word));
   const decision_unit::LinkWidth width{static_cast<std::uint64_t>(machine_.object_processor.word_bits),
@@ -159,7 +159,9 @@ void Imogene::build_links() {
   for (std::size_t k = 0; k < units; ++k)
     host_links_.push_back(&add_link(fmt::format("host link {}", k), 8, byte_clock));
   light_link_ = &add_link("animation unit to table loader", 8, byte_clock);
-  for (std::size_t k = 0; k < units; ++k) bus_links_.push_back(&add_link(fmt::format("bus {}", k), 32, bus_clock));
+  for (std::size_t k = 0; k < units; ++k) 
+    bus_links_.push_back(
+        &add_link(fmt::format("bus {}", k), static_cast<unsigned>(machine_.host.bus_bits), bus_clock));
   for (std::size_t k = 0; k < units; ++k)
     board_links_.push_back(
         &add_link(fmt::format("board {} to decision unit", k), static_cast<unsigned>(width.bits()), timing_.clock));
@@ -188,10 +190,19 @@ void Imogene::build_hosts() {
     return result;
   };
   stream::Link& light_link = *light_link_;
+  // The last processor copies later than the first by the skew of the microinstruction.
+  const host::CopyTimes copies{timing_.clock, timing_.frame,
+                               object_processor::frame_start_cycles() +
+                                   decision_unit::skew(machine_.decision_unit.topology, machine_.processors(),
+                                                       cycles_of(machine_.object_processor.comparator_cycles)),
+                               machine_.host.swap == host::Swap::unconditional};
   // The retraces are the video timing's, which comes first.
   video_timing_ = std::make_unique<video::VideoTimingModule>("video_timing", timing_,
                                                              static_cast<std::size_t>(machine_.video.lines), units + 2,
-                                                             units, options_.frames, kPatienceFrames);
+                                                             units, options_.frames, kPatienceFrames,
+                                                             machine_.host.swap == host::Swap::unconditional
+                                                                 ? video::VideoTimingModule::Copy::at_every_retrace
+                                                                 : video::VideoTimingModule::Copy::when_ready);
   animation_unit_ = std::make_unique<host::AnimationUnitModule>(
       "animation_unit", animation_, cost_, below(0).size(), units, machine_.host.overflow,
       host::AnimationUnitModule::Timeline{&video_timing_->swapped,
@@ -202,7 +213,7 @@ void Imogene::build_hosts() {
     computation_units_.push_back(std::make_unique<host::ComputationUnitModule>(
         fmt::format("computation_unit_{}", k).c_str(), static_cast<std::uint32_t>(k), *computations_[k], cost_,
         below(k + 1).size(), video_timing_->swapped,
-        host::ComputationUnitModule::Links{host_links_[k], below(k + 1), bus_links_[k], meshes_below(k + 1)}));
+        host::ComputationUnitModule::Links{host_links_[k], below(k + 1), bus_links_[k], meshes_below(k + 1)}, copies));
   }
 }
 
@@ -312,6 +323,8 @@ void Imogene::bind_display() {
 void Imogene::note_shown(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps) {
   shown_.frame = frame;
   shown_.updated = video_timing_->updates() != updates_seen_;
+  shown_.words_ahead = 0;
+  for (const auto& board : board_modules_) shown_.words_ahead += board->words_ahead();
   shown_.flops = 0;
   shown_.words = 0;
   if (shown_.updated) {
@@ -325,7 +338,7 @@ void Imogene::note_shown(std::uint64_t frame, const frame::Frame& pixels, std::u
     for (std::size_t k = 0; k < computations_.size(); ++k) {
       shown_.triangles += computations_[k]->triangle_counts();
       if (computation_units_[k]->updates().empty()) continue;
-      shown_.flops += computation_units_[k]->updates().back().flops;
+      shown_.flops += computation_units_[k]->updates().back().flops();
       shown_.words += computation_units_[k]->updates().back().words;
     }
   }

@@ -33,6 +33,7 @@ void Machine::declare(parameter::Table& table) {
 }
 
 void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
+  host.check(diagnostics, file);
   object_processor.check(diagnostics, file);
   shading.check(object_processor.normal_bits, file, diagnostics);
   const auto gather = [&](const auto& step) {

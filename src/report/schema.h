@@ -61,7 +61,17 @@ void visit(Visitor& v, run::Answer& a) {
   v.value("latency_frames",
           {"frames", kFormula, "from the start of an animation frame to the first line of its picture"},
           a.latency_frames);
+  v.value("latency_first_pixel_us",
+          {"us", kFormula, "latency_frames frames, and on to the first pixel: retrace, blanking, stages of the pixel"},
+          a.latency_first_pixel_us);
+  v.value("latency_last_pixel_us", {"us", kFormula, "the same to the last pixel"}, a.latency_last_pixel_us);
   v.value("initial_load_frames", {"frames", kFormula, "video frames before the first picture"}, a.initial_load_frames);
+  v.value("initial_load_us", {"us", kCount, "until the last computation unit has finished the first frame"},
+          a.initial_load_us);
+  v.value("initial_load_bytes", {"bytes", kCount, "of meshes that cross the links once, each to the unit that keeps it"},
+          a.initial_load_bytes);
+  v.value("torn_frames", {"frames", kCount, "displayed frames that show a part of an unfinished update"},
+          a.torn_frames);
   v.value("display_works", {"", kFormula, "whether every unit behind the host keeps its deadlines"}, a.display_works);
   v.texts("limits", {"", kFormula, "one sentence for everything that keeps the machine from its rate"}, a.limits);
 }
@@ -181,6 +191,10 @@ void visit(Visitor& v, run::FrameFigures& f) {
   v.value("host_flops", {"flop", kCount, "of all computation units; 0 where nothing was computed for this frame"},
           f.host_flops);
   v.value("words_sent", {"words", kCount, "written to the object boards for this frame"}, f.words_sent);
+  v.value("words_ahead",
+          {"words", kCount, "in use that belong to an update which the hosts have not finished: the picture is torn"},
+          f.words_ahead);
+  v.derived("torn", {"", kFormula, "words_ahead > 0"}, f.words_ahead > 0);
   v.derived_object("error", "the figures of errors[] against the reference \"ideal\"", find_error(f, "ideal"),
                    [](Visitor& e, reference::ErrorFigures& figures) { visit(e, figures); });
   v.list("errors", "distance from each exact picture", f.errors,

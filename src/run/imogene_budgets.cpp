@@ -61,11 +61,18 @@ void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
       budget("host.update", as_real(load.update.cycles), as_real(load.frame), "cycles",
              which + ": links, arithmetic, waiting for the frame's grid, and bus; host cycles of a video frame",
              "host.computation_units, host.sustained_mflops, host.assignment", moves));
-  budgets.push_back(
-      budget("host.flops", static_cast<double>(load.update.flops),
-             platform.machine().host.sustained_mflops * 1e6 * platform.timing().clock.seconds(platform.timing().frame),
-             "flop", which + ": operations counted in the code that computes; sustained rate x video frame",
-             "host.computation_units, host.sustained_mflops", moves));
+  const host::HostParameters& host = platform.machine().host;
+  const double seconds = platform.timing().clock.seconds(platform.timing().frame);
+  const bool sustained = host.cost == host::CostModel::sustained;
+  const double a_flop = platform.cost().cycles_per_flop(load.update.operations);
+  budgets.push_back(budget(
+      "host.flops", static_cast<double>(load.update.flops()),
+      sustained ? host.sustained_mflops * 1e6 * seconds : static_cast<double>(host.clock_hz) * seconds / a_flop, "flop",
+      which + (sustained ? ": operations counted in the code that computes; sustained rate x video frame"
+                         : fmt::format(": operations counted in the code that computes; video frame / {:.4g} cycles, "
+                                       "the mean of these operations by the table of instructions, integer ones included",
+                                       a_flop)),
+      sustained ? "host.computation_units, host.sustained_mflops" : "host.computation_units, host.instruction", moves));
   budgets.push_back(budget(
       "host.bus", as_real(load.update.writing), as_real(load.frame), "cycles",
       fmt::format("{}: {} words x {} cycles", which, load.update.words, platform.machine().host.bus_cycles_per_word),
@@ -219,7 +226,17 @@ Answer imogene_answer(Imogene& platform, const std::vector<Budget>& budgets) {
   answer.update_rate_hz = answer.display_rate_hz / static_cast<double>(update_frames);
   answer.frame_rate_hz = answer.update_rate_hz;
   answer.latency_frames = update_frames;
+  const Cycles first_pixel = timing.first_pixel(0) + platform.pixel_latency();
+  const Cycles last_pixel = first_pixel + timing.line * static_cast<std::uint64_t>(machine.video.lines - 1) +
+                            Cycles(static_cast<std::uint64_t>(machine.video.columns - 1));
+  answer.latency_first_pixel_us = 1e6 * timing.clock.seconds(timing.frame * update_frames + first_pixel);
+  answer.latency_last_pixel_us = 1e6 * timing.clock.seconds(timing.frame * update_frames + last_pixel);
   answer.initial_load_frames = platform.frames_before_first();
+  for (const auto& unit : platform.computation_units())
+    answer.initial_load_us =
+        std::max(answer.initial_load_us, 1e6 * platform.cost().clock().seconds(unit->updates().front().cycles));
+  for (const auto& owners : platform.slots().boards)
+    answer.initial_load_bytes += host::kResidentTriangleBytes * owners.size();
 
   answer.bottleneck = find_bottleneck(platform, budgets, host);
   answer.headroom = answer.display_rate_hz / answer.bottleneck.utilisation / answer.required_rate_hz - 1.0;

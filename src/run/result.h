@@ -27,7 +27,12 @@ struct Answer {
   double headroom = 0.0;  // rate that the bottleneck allows / required rate - 1
   Bottleneck bottleneck;
   std::uint64_t latency_frames = 0;       // from the start of an animation frame to its picture's first line
+  double latency_first_pixel_us = 0.0;    // from the same to its first pixel, and to its last
+  double latency_last_pixel_us = 0.0;
   std::uint64_t initial_load_frames = 0;  // video frames before the first picture
+  double initial_load_us = 0.0;           // until the last unit has finished the first frame
+  std::uint64_t initial_load_bytes = 0;   // of meshes, that stay in the units' memories
+  std::uint64_t torn_frames = 0;          // displayed frames that show a part of an unfinished update
   bool display_works = true;              // every unit behind the host keeps its deadlines
   std::vector<std::string> limits;        // one sentence for everything that keeps the machine from its rate
 };
@@ -113,6 +118,7 @@ struct FrameFigures {
   std::uint64_t fragments = 0;
   std::uint64_t host_flops = 0;  // all computation units; 0 where nothing was computed for this frame
   std::uint64_t words_sent = 0;
+  std::uint64_t words_ahead = 0;  // in use, of an update that the hosts have not finished: the picture is torn
   std::vector<reference::ErrorFigures> errors;  // empty without reference
 };
 

@@ -73,6 +73,7 @@ FrameFigures figures_of(const imogene::ShownFrame& shown, const frame::Frame& pi
   for (const std::uint32_t count : pixels.coverage) f.fragments += count;
   f.host_flops = shown.flops;
   f.words_sent = shown.words;
+  f.words_ahead = shown.words_ahead;
   return f;
 }
 
@@ -150,6 +151,8 @@ Result simulate(const Inputs& inputs, const Options& options, const FrameSink& s
   result.units = unit_figures(*platform);
   result.budgets = imogene_budgets(*platform);
   result.answer = imogene_answer(*platform, result.budgets);
+  result.answer.torn_frames = static_cast<std::uint64_t>(
+      std::count_if(result.frames.begin(), result.frames.end(), [](const auto& f) { return f.words_ahead > 0; }));
   result.links = link_figures(*platform);
   result.memories = memory_figures(*platform);
   result.logic = logic_figures(*platform);

@@ -66,31 +66,37 @@ std::vector<std::vector<Work>> work_of(const Hosts& hosts, std::int64_t frames) 
 }
 
 // Unit 2 below unit 1 below unit 0: frame messages of `bytes`, surveys of 5, 9 and 13 bytes (a flag, and four bytes a
-// unit), plans of one byte. Cycles from the start to ready, by unit.
+// unit), plans of one byte. A unit that forwards starts the message before it works. Cycles from the start to ready, by
+// unit.
 std::vector<std::uint64_t> chain_schedule(std::uint64_t bytes, const std::vector<Work>& work,
                                           std::uint64_t (*message)(std::uint64_t) = twenty_megahertz) {
+  const std::uint64_t start = message(0);
   std::vector<std::uint64_t> surveyed;
-  for (std::size_t k = 0; k < 3; ++k) surveyed.push_back((k + 1) * message(bytes) + compute(work[k].survey));
+  for (std::size_t k = 0; k < 3; ++k)
+    surveyed.push_back((k + 1) * message(bytes) + (k < 2 ? start : 0) + compute(work[k].survey));
   const std::uint64_t from_2 = surveyed[2] + message(5);
   const std::uint64_t from_1 = std::max(surveyed[1], from_2) + message(9);
   const std::uint64_t settled = std::max(surveyed[0], from_1) + message(13);
   std::vector<std::uint64_t> ready;
   for (std::size_t k = 0; k < 3; ++k)
-    ready.push_back(settled + (k + 1) * message(1) + compute(work[k].fit) + 3 * work[k].words);
+    ready.push_back(settled + (k + 1) * message(1) + (k < 2 ? start : 0) + compute(work[k].fit) + 3 * work[k].words);
   return ready;
 }
 
-// Units 0 and 1 below the animation unit, unit 2 below unit 0: what a tree of three links makes of three units.
+// Units 0 and 1 below the animation unit, unit 2 below unit 0: what a tree of three links makes of three units. The
+// animation unit starts the message to unit 1 after that to unit 0.
 std::vector<std::uint64_t> tree_schedule(std::uint64_t bytes, const std::vector<Work>& work) {
   const auto message = twenty_megahertz;
+  const std::uint64_t start = message(0);
   const std::uint64_t hop = message(bytes);
   const std::uint64_t from_2 = 2 * hop + compute(work[2].survey) + message(5);
-  const std::uint64_t from_0 = std::max(hop + compute(work[0].survey), from_2) + message(9);
-  const std::uint64_t from_1 = hop + compute(work[1].survey) + message(5);
+  const std::uint64_t from_0 = std::max(hop + start + compute(work[0].survey), from_2) + message(9);
+  const std::uint64_t from_1 = start + hop + compute(work[1].survey) + message(5);
   const std::uint64_t settled = std::max(from_0, from_1);
   std::vector<std::uint64_t> ready;
   for (std::size_t k = 0; k < 3; ++k)
-    ready.push_back(settled + (k == 2 ? 2 : 1) * message(1) + compute(work[k].fit) + 3 * work[k].words);
+    ready.push_back(settled + (k == 2 ? 2 : 1) * message(1) + (k == 2 ? 0 : start) + compute(work[k].fit) +
+                    3 * work[k].words);
   return ready;
 }
 
@@ -110,7 +116,7 @@ TEST(HostsModule, InitialLoadInAChain) {
     EXPECT_EQ(update.cycles, Cycles(expected[k]));
     EXPECT_EQ(update.computing, Cycles(compute(work[k].survey) + compute(work[k].fit)));
     EXPECT_EQ(update.writing, Cycles(3 * work[k].words));
-    EXPECT_EQ(update.flops, work[k].survey + work[k].fit);
+    EXPECT_EQ(update.flops(), work[k].survey + work[k].fit);
     EXPECT_EQ(update.words, work[k].words);
     EXPECT_EQ(hosts.bus_links[k].words(), work[k].words);
   }
@@ -175,13 +181,88 @@ TEST(HostsModule, TheNextFrameBeginsAtTheSwap) {
     const stream::Occupancy& occupancy = hosts.units[k].occupancy(2 * swap_ps);
     occupancy.check("unit");
     EXPECT_EQ(occupancy.cycles, 400'000U);
-    EXPECT_EQ(occupancy.busy, compute(work[k].survey) + compute(work[k].fit) + 3 * work[k].words);
+    // Frame and plan forwarded, but for the last; a survey up.
+    const std::uint64_t starts = 19 * (k < 2 ? 3 : 1);
+    EXPECT_EQ(hosts.units[k].updates().at(1).starting, Cycles(starts));
+    EXPECT_EQ(occupancy.busy, starts + compute(work[k].survey) + compute(work[k].fit) + 3 * work[k].words);
     EXPECT_EQ(occupancy.idle, 400'000U - expected[k]);
     EXPECT_EQ(occupancy.blocked, 0U);
   }
   ASSERT_EQ(hosts.loader.received.size(), 2U);
   EXPECT_TRUE(hosts.loader.received[0].changed);
   EXPECT_FALSE(hosts.loader.received[1].changed);
+}
+
+// Loading RAMs are copied at every retrace, while the units still write: the bus stands still for the ten host cycles
+// that start within the copy's 480 ns, and the copy finds the words that had been written by then, part of a slot
+// included.
+TEST(HostsModule, CopiesStopTheBusOfThreeUnits) {
+  constexpr std::uint64_t kWord = 6000;  // host cycles: a slow bus, on which a frame's words take more than a frame
+  constexpr std::uint64_t kFramePs = 333'333ULL * 60'000;
+  constexpr std::uint64_t kCyclesOfFrame = 399'999;  // that end before the next retrace
+  Hosts hosts;
+  add_objects(hosts, {{12, true}});
+  hosts.parameters.bus_cycles_per_word = static_cast<std::int64_t>(kWord);
+  hosts.copies.every_retrace = true;
+  const auto work = work_of(hosts, 2)[1];
+  hosts.build();
+  const std::uint64_t swap_ps = 4 * kFramePs;
+  const auto words_written = [&](std::size_t k) {
+    std::uint64_t words = 0;
+    for (const StubBoard::Write& write : hosts.boards[k].writes) words += write.words.size();
+    return words;
+  };
+  std::vector<std::uint64_t> at_copy, before;
+  const stream::Script video("video", [&] {
+    sc_core::wait(stream::to_time(swap_ps));
+    for (std::size_t k = 0; k < 3; ++k) before.push_back(words_written(k));
+    hosts.swapped.notify(sc_core::SC_ZERO_TIME);
+    sc_core::wait(stream::to_time(kFramePs));
+    for (std::size_t k = 0; k < 3; ++k) at_copy.push_back(words_written(k) - before[k]);
+  });
+  stream::simulate();
+  ASSERT_EQ(at_copy.size(), 3U);
+  // All three below the animation unit, which starts their messages one after the other.
+  const auto message = twenty_megahertz;
+  std::uint64_t settled = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    settled = std::max(settled, 19 * k + message(8 + 64) + compute(work[k].survey) + message(5));
+  for (std::size_t k = 0; k < 3; ++k) {
+    SCOPED_TRACE(k);
+    ASSERT_EQ(work[k].words, 4U * 22);
+    const std::uint64_t writes = settled + 19 * k + message(1) + compute(work[k].fit);
+    EXPECT_EQ(at_copy[k], (kCyclesOfFrame - writes) / kWord);
+    EXPECT_NE(at_copy[k] % 22, 0U) << "a copy within a slot was meant";
+    const auto& update = hosts.units[k].updates().at(1);
+    EXPECT_EQ(update.cycles, Cycles(writes + kWord * work[k].words + 10));
+    EXPECT_EQ(update.stalled, Cycles(10));
+    EXPECT_EQ(update.writing, Cycles(kWord * work[k].words));
+    EXPECT_EQ(words_written(k) - before[k], work[k].words);
+    const stream::Occupancy& occupancy = hosts.units[k].occupancy(swap_ps + 2 * kFramePs);
+    occupancy.check("unit");
+    EXPECT_EQ(occupancy.blocked, 10U);
+    EXPECT_EQ(hosts.edges[k].list().back(),
+              (stream::Edges::Edge{swap_ps + update.cycles.count() * kCyclePs, true}));
+  }
+}
+
+// The same, copied when all are ready only: nothing stops the bus.
+TEST(HostsModule, NothingIsCopiedUnderAWritingUnit) {
+  Hosts hosts;
+  add_objects(hosts, {{12, true}});
+  hosts.parameters.bus_cycles_per_word = 6000;
+  const auto work = work_of(hosts, 2)[1];
+  hosts.build();
+  const std::uint64_t swap_ps = 4 * 333'333ULL * 60'000;
+  const stream::Script video("video", [&] {
+    sc_core::wait(stream::to_time(swap_ps));
+    hosts.swapped.notify(sc_core::SC_ZERO_TIME);
+  });
+  stream::simulate();
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(hosts.units[k].updates().at(1).stalled, Cycles(0));
+    EXPECT_EQ(hosts.units[k].updates().at(1).writing, Cycles(6000 * work[k].words));
+  }
 }
 
 // Where nothing moves, nothing is announced after the first frame.

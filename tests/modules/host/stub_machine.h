@@ -73,6 +73,7 @@ struct Hosts {
   StubLoader loader{"loader"};
   sc_core::sc_event swapped;
   std::uint64_t displayed_frame = 0;
+  CopyTimes copies{Clock::from_period_ns("pixel clock", 60.0), Cycles(333'333), Cycles(8)};
   std::unique_ptr<AnimationUnitModule> animation_unit;
   std::deque<ComputationUnitModule> units;
 
@@ -105,7 +106,7 @@ struct Hosts {
     for (std::size_t k = 0; k < count; ++k) {
       units.emplace_back(("computation_unit_" + std::to_string(k)).c_str(), static_cast<std::uint32_t>(k),
                          computations[k], *cost, fed(k + 1).size(), swapped,
-                         ComputationUnitModule::Links{&links[k], below(k + 1), &bus_links[k]});
+                         ComputationUnitModule::Links{&links[k], below(k + 1), &bus_links[k]}, copies);
       units[k].ready.bind(ready[k]);
       units[k].bus.bind(boards[k].bus);
     }

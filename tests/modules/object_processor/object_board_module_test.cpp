@@ -51,10 +51,11 @@ class Surroundings : public sc_core::sc_module {
     payload.clear_extension(&number);
     return payload.get_response_status();
   }
-  void retrace(bool copy) {
+  void retrace(bool copy, bool swap = true) {
     stream::SyncPayload payload;
     payload.kind = stream::SyncPayload::Kind::retrace;
     payload.copy = copy;
+    payload.swap = copy && swap;
     sc_core::sc_time delay;
     sync->b_transport(payload, delay);
   }
@@ -120,6 +121,27 @@ TEST(ObjectBoardModule, WordsWaitForARetraceThatCopies) {
     EXPECT_EQ(line.coverage[x], 1U);
   }
   EXPECT_EQ(m.board.lines_sent(), 3U);
+}
+
+// What a copy takes of an update that the hosts have not finished is ahead of it; the swap that ends it leaves none.
+TEST(ObjectBoardModule, CountsTheWordsOfAnUnfinishedUpdate) {
+  Machine m;
+  m.around.write(bus_address(kBoard, 3, 0), everywhere(1000), 77);
+  m.around.retrace(true);
+  EXPECT_EQ(m.board.words_ahead(), 0U);
+  m.around.write(bus_address(kBoard, 3, word_index(kDepth, 2)), {400});
+  EXPECT_EQ(m.board.words_ahead(), 0U);
+  m.around.retrace(true, false);
+  EXPECT_EQ(m.board.words_ahead(), 1U);
+  m.around.line(0, 0);
+  EXPECT_EQ(m.around.lines.back().fragments.depth[4], 400U);
+  m.around.write(bus_address(kBoard, 3, 0), {0, 0, 0xFFFFFF});
+  m.around.retrace(true, false);
+  EXPECT_EQ(m.board.words_ahead(), 4U);
+  m.around.retrace(false);
+  EXPECT_EQ(m.board.words_ahead(), 4U);
+  m.around.retrace(true);
+  EXPECT_EQ(m.board.words_ahead(), 0U);
 }
 
 // A burst of three words parks a processor; a burst may begin at any word.

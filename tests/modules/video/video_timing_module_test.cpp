@@ -35,6 +35,7 @@ struct Heard {
   int listener;
   bool retrace;
   bool copy;
+  bool swap;
   std::uint64_t frame;
   std::size_t line;
   std::uint64_t picoseconds;  // with the annotated delay
@@ -52,7 +53,7 @@ class Listeners : public sc_core::sc_module {
  private:
   void hear(int listener, SyncPayload& payload, sc_core::sc_time& delay) {
     EXPECT_FALSE(payload.switch_tables);  // that is the loader's to say
-    heard.push_back({listener, payload.kind == SyncPayload::Kind::retrace, payload.copy, payload.frame, payload.line,
+    heard.push_back({listener, payload.kind == SyncPayload::Kind::retrace, payload.copy, payload.swap, payload.frame, payload.line,
                      stream::picoseconds_now() + delay.value()});
     delay += sc_core::sc_time(7, sc_core::SC_MS);  // is nobody else's delay
   }
@@ -68,8 +69,9 @@ struct Screen {
   std::vector<std::uint64_t> swaps;  // times
   std::deque<stream::Script> scripts;
 
-  Screen(std::uint64_t frames, std::uint64_t patience)
-      : video("video_timing", timing_of_test(), kLines, 2, 2, frames, patience) {
+  Screen(std::uint64_t frames, std::uint64_t patience,
+         VideoTimingModule::Copy copy = VideoTimingModule::Copy::when_ready)
+      : video("video_timing", timing_of_test(), kLines, 2, 2, frames, patience, copy) {
     video.ready[0].bind(unit_0);
     video.ready[1].bind(unit_1);
     video.tables_ready.bind(tables);
@@ -160,6 +162,30 @@ TEST(VideoTimingModule, KeepsThePictureOfALateHost) {
   EXPECT_EQ(screen.video.updates(), 2U);
   EXPECT_EQ(screen.video.frames_before_first(), 0U);
   EXPECT_EQ(screen.listeners.heard.size(), 5 * 2 * (1 + kLines));
+}
+
+// Copied at every retrace: once there is a picture, whatever stands in the loading RAMs is shown; the hosts go on, and
+// an update is counted, where everything was ready.
+TEST(VideoTimingModule, CopiesAtEveryRetraceAfterTheFirstPicture) {
+  Screen screen(5, 10, VideoTimingModule::Copy::at_every_retrace);
+  screen.scripts.emplace_back("script", [&] {
+    sc_core::wait(stream::to_time(kFramePs + 1));
+    screen.set_all(true);
+    sc_core::wait(screen.video.swapped);
+    screen.unit_1.write(false);
+    sc_core::wait(stream::to_time(2 * kFramePs + 1));
+    screen.unit_1.write(true);
+  });
+  stream::simulate();
+  EXPECT_THAT(screen.retraces(), ElementsAre(std::tuple(0, 0, false), std::tuple(1, 0, false), std::tuple(2, 0, true),
+                                             std::tuple(3, 1, true), std::tuple(4, 2, true), std::tuple(5, 3, true),
+                                             std::tuple(6, 4, true)));
+  std::vector<bool> swapped;
+  for (const Heard& one : screen.listeners.heard)
+    if (one.retrace && one.listener == 1) swapped.push_back(one.swap);
+  EXPECT_THAT(swapped, ElementsAre(false, false, true, false, false, true, true));
+  EXPECT_THAT(screen.swaps, ElementsAre(2 * kFramePs, 5 * kFramePs, 6 * kFramePs));
+  EXPECT_EQ(screen.video.updates(), 3U);
 }
 
 // At the very instant of the retrace is in time, a picosecond later is a frame later.

@@ -25,7 +25,8 @@ constexpr std::uint64_t kTriangleBytes = 4 * (18 + 1);  // three corners of posi
 constexpr std::uint64_t kPieceBytes = 4 * (kWords + 1);
 
 std::uint64_t arithmetic(std::uint64_t flops) { return (40 * flops + 2) / 3; }
-std::uint64_t message(std::uint64_t bytes) { return 19 + (23 * bytes + 1) / 2; }
+constexpr std::uint64_t kMessageStart = 19;
+std::uint64_t message(std::uint64_t bytes) { return kMessageStart + (23 * bytes + 1) / 2; }
 
 // Who feeds unit k: another unit, or the animation unit (-1), which feeds three, as every unit does.
 using Parents = std::vector<int>;
@@ -60,9 +61,17 @@ std::vector<std::uint64_t> timeline(const UpdateWork& work, const Parents& paren
   meshes.resize(count);
   for (std::size_t k = count; k-- > 0;)
     if (parents[k] >= 0) meshes[parent(k)] += meshes[k];
+  // A processor starts the messages to those that it feeds one after the other, and then works.
+  std::vector<std::uint64_t> earlier(count), fed(count);
   for (std::size_t k = 0; k < count; ++k) {
-    told[k] = (parents[k] < 0 ? 0 : told[parent(k)]) + message(work.message_bytes + meshes[k]);
-    ready[k] = told[k] + arithmetic(work.units[k].first_flops);
+    earlier[k] = kMessageStart * static_cast<std::uint64_t>(
+                                     std::count(parents.begin(), parents.begin() + static_cast<long>(k), parents[k]));
+    fed[k] = kMessageStart *
+             static_cast<std::uint64_t>(std::count(parents.begin(), parents.end(), static_cast<int>(k)));
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    told[k] = (parents[k] < 0 ? 0 : told[parent(k)]) + earlier[k] + message(work.message_bytes + meshes[k]);
+    ready[k] = told[k] + fed[k] + arithmetic(work.units[k].first_flops);
     homeless[k] = work.units[k].homeless;
   }
   // A survey goes up when the own one and those from below are there.
@@ -76,8 +85,9 @@ std::vector<std::uint64_t> timeline(const UpdateWork& work, const Parents& paren
     homeless[parent(k)] += homeless[k];
   }
   for (std::size_t k = 0; k < count; ++k) {
-    planned[k] = (parents[k] < 0 ? settled : planned[parent(k)]) + message(1 + kPieceBytes * work.placed);
-    done[k] = planned[k] + arithmetic(work.units[k].second_flops) + 3 * work.units[k].words;
+    planned[k] =
+        (parents[k] < 0 ? settled : planned[parent(k)]) + earlier[k] + message(1 + kPieceBytes * work.placed);
+    done[k] = planned[k] + fed[k] + arithmetic(work.units[k].second_flops) + 3 * work.units[k].words;
   }
   return done;
 }
@@ -151,7 +161,7 @@ std::vector<std::vector<Update>> updates_of(const run::Inputs& inputs, std::uint
       out << unit->updates().size() << '\n';
       for (const auto& u : unit->updates())
         out << u.animation_frame << ' ' << u.cycles.count() << ' ' << u.computing.count() << ' ' << u.writing.count()
-            << ' ' << u.flops << ' ' << u.words << '\n';
+            << ' ' << u.flops() << ' ' << u.words << '\n';
     }
     return out.str();
   });
