@@ -16,14 +16,17 @@ using stream::wait_until;
 
 namespace {
 
+using Number = geometry::Counted<double>;
+
 // Light and highlight vectors as the shading processor knows them: constant over the frame, the viewer infinitely far
 // along +z.
 std::vector<shading::LightArguments> light_arguments(const geometry::Pose& pose) {
   std::vector<shading::LightArguments> result;
   for (const geometry::Light& light : pose.lights) {
-    const geometry::Vector3<double> halfway = geometry::normalised<double>(light.vector + glm::dvec3(0, 0, 1));
+    const geometry::Vector3<Number> sum{light.vector.x, light.vector.y, Number(light.vector.z) + Number(1.0)};
+    const geometry::Vector3<Number> halfway = geometry::normalised<Number>(sum);
     result.push_back({{light.vector.x, light.vector.y, light.vector.z},
-                      {halfway.x, halfway.y, halfway.z},
+                      {halfway.x.value(), halfway.y.value(), halfway.z.value()},
                       {light.intensity.x, light.intensity.y, light.intensity.z}});
   }
   return result;
@@ -59,7 +62,7 @@ void AnimationUnitModule::run_guarded() {
 
 // A frame:
 // 1. say what changed to the units that it feeds and to the table loader;
-// 2. wait for their surveys, settle the grid, place pieces of clipped triangles, and say so;
+// 2. work out where the lights will stand, wait for their surveys, settle the grid, place pieces of clipped triangles, and say so;
 // 3. wait for the retrace that shows the frame. The next one is for the frame after that retrace's.
 void AnimationUnitModule::run() {
   announce_frame(0, true);
@@ -94,14 +97,19 @@ void AnimationUnitModule::announce_frame(std::int64_t animation_frame, bool init
 void AnimationUnitModule::announce_lights() {
   light_payload_.changed = work_->lights_changed;
   light_payload_.will_change = animation_.lights_change();
+  const geometry::OperationCounts before = geometry::operation_counts;
   light_payload_.lights = light_arguments(work_->pose);
   sc_core::sc_time delay;
+  light_operations_ = light_payload_.changed ? geometry::operation_counts - before : geometry::OperationCounts();
   if (light_link_.link != nullptr && light_payload_.changed)
     delay = start_message(shading::light_message_bytes(light_payload_.lights.size()), cost_, light_link_, meter_);
   loader->b_transport(light_payload_, delay);
 }
 
 void AnimationUnitModule::settle_plan() {
+  // While the units work: the lights of the next frame, so that its message need not wait for them.
+  meter_.enter(Activity::busy, picoseconds_now());
+  wait(stream::to_time(cost_.clock(), cost_.compute(light_operations_)));
   meter_.enter(Activity::starved, picoseconds_now());
   while (surveys_ < up.size()) wait(sent_up_);
   wait_until(last_survey_ps_);

@@ -57,6 +57,7 @@ class AnimationUnitModule : public sc_core::sc_module {
   std::unique_ptr<FrameWork> work_;
   MessagePayload payload_;
   shading::LightPayload light_payload_;
+  geometry::OperationCounts light_operations_;  // of a frame in which the lights change
   std::vector<std::vector<Piece>> placed_;
 
   // Gathered from the surveys of a frame.

@@ -23,33 +23,57 @@ std::optional<Stall> BusSchedule::next(Cycles cycle) const {
     if (const Stall one = stall(retrace); one.end > cycle) return one;
 }
 
+BusBurst::BusBurst(const BusSchedule& schedule, std::span<const Segment> segments, Cycles word, Cycles start)
+    : schedule_(schedule), segments_(segments), word_(word.count()), cycle_(start) {
+  open_segment();
+}
+
+void BusBurst::open_segment() {
+  if (done()) return;
+  compute_ = segments_[segment_].compute;
+  words_ = segments_[segment_].words;
+  credit_ = 0;
+}
+
+// On to the next copy: what it finds are the words that ended before it began. A step ends where the bus comes to stand
+// still, and where a copy has begun meanwhile.
 BusBurst::Step BusBurst::step() {
-  const std::uint64_t needed = remaining_ * word_ - credit_;
+  std::optional<Stall> coming = schedule_.next(cycle_);
+  Cycles standing = cycle_;  // until when the bus stands still now
+  if (coming && coming->begin <= cycle_) {
+    standing = coming->end;
+    coming = schedule_.next(standing);
+  }
   Step step;
-  if (needed == 0) {
-    step.words = remaining_;
-    remaining_ = 0;
+  Cycles now = cycle_;
+  const auto end_at = [&](Cycles cycle) {
+    step.busy = cycle - cycle_;
+    cycle_ = cycle;
     return step;
+  };
+  for (; !done(); ++segment_, open_segment()) {
+    now += compute_;
+    compute_ = Cycles(0);
+    if (coming && now > coming->visible) return end_at(now);
+    if (needed() > 0 && now < standing) {
+      if (now > cycle_) return end_at(now);
+      step.blocked = standing - now;
+      cycle_ = standing;
+      return step;
+    }
+    if (!coming || now.count() + needed() <= coming->visible.count()) {
+      now += Cycles(needed());
+      step.words += words_;
+      continue;
+    }
+    const std::uint64_t run = std::min(needed(), (coming->begin - now).count());
+    const std::uint64_t ended = (credit_ + (coming->visible - now).count()) / word_;
+    credit_ = credit_ + run - ended * word_;
+    words_ -= ended;
+    step.words += ended;
+    return end_at(now + Cycles(run));
   }
-  const std::optional<Stall> stall = schedule_.next(cycle_);
-  if (stall && stall->begin <= cycle_) {
-    step.blocked = stall->end - cycle_;
-    cycle_ = stall->end;
-    return step;
-  }
-  if (!stall || cycle_.count() + needed <= stall->visible.count()) {
-    step = {remaining_, Cycles(needed), Cycles(0)};
-    remaining_ = 0;
-    cycle_ += step.busy;
-    return step;
-  }
-  step.busy = Cycles(std::min(needed, (stall->begin - cycle_).count()));
-  const std::uint64_t visible = stall->visible > cycle_ ? (stall->visible - cycle_).count() : 0;
-  step.words = (credit_ + visible) / word_;
-  remaining_ -= step.words;
-  credit_ = credit_ + step.busy.count() - step.words * word_;
-  cycle_ += step.busy;
-  return step;
+  return end_at(now);
 }
 
 }  // namespace rastertlm::host

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "src/base/units.h"
 
@@ -45,27 +46,38 @@ class BusSchedule {
   std::uint64_t start_ps_ = 0;
 };
 
-// A run of words on the bus, cut where copies begin.
+// Arithmetic, which no copy stops, and then words on the bus.
+struct Segment {
+  Cycles compute;
+  std::uint64_t words = 0;
+};
+
+// Segments one after the other, cut where copies begin.
 class BusBurst {
  public:
-  // Of `words`, each of `word` cycles, from cycle `start` on.
-  BusBurst(const BusSchedule& schedule, std::uint64_t words, Cycles word, Cycles start)
-      : schedule_(schedule), remaining_(words), word_(word.count()), cycle_(start) {}
+  // Words of `word` > 0 cycles each, from cycle `start` on. `schedule` and `segments` outlive the burst.
+  BusBurst(const BusSchedule& schedule, std::span<const Segment> segments, Cycles word, Cycles start);
 
   struct Step {
     std::uint64_t words = 0;  // that stand in the loading RAM before the next copy begins
-    Cycles busy;              // the bus moves for so long,
-    Cycles blocked;           // and then stands still
+    Cycles busy;              // computing and writing; or
+    Cycles blocked;           // the bus stands still
   };
-  bool done() const { return remaining_ == 0; }
+  bool done() const { return segment_ == segments_.size(); }
   Step step();  // !done()
   Cycles cycle() const { return cycle_; }
 
  private:
+  void open_segment();
+  std::uint64_t needed() const { return words_ * word_ - credit_; }
+
   const BusSchedule& schedule_;
-  std::uint64_t remaining_;
+  std::span<const Segment> segments_;
   std::uint64_t word_;
   Cycles cycle_;
+  std::size_t segment_ = 0;
+  Cycles compute_;            // left of the segment
+  std::uint64_t words_ = 0;   // likewise
   std::uint64_t credit_ = 0;  // cycles spent on words that are not yet counted
 };
 

@@ -153,6 +153,7 @@ void Computation::allocate(Survey& survey) {
 
 const std::vector<Load>& Computation::set_up(bool guarded, const std::vector<Piece>& adopted) {
   const CountedStep step(operations_);
+  step_start_ = operation_counts;
   loads_.clear();
   const bool grid_changed = first_ || guarded != last_guarded_;
   const geometry::SnapGrid& grid = guarded ? format_.grids.guarded : format_.grids.on_screen;
@@ -202,11 +203,12 @@ void Computation::load_pieces() {
 }
 
 void Computation::put(std::uint32_t slot, std::uint32_t object, const object_processor::TriangleWords& words) {
-  loads_.push_back({slot, object, false, words});
+  loads_.push_back({slot, object, false, operation_counts - step_start_, words});
 }
 
 void Computation::park(std::uint32_t slot) {
-  loads_.push_back({slot, 0, true, object_processor::parked_triangle(static_cast<unsigned>(format_.words.word_bits))});
+  loads_.push_back(
+      {slot, 0, true, operation_counts - step_start_, object_processor::parked_triangle(static_cast<unsigned>(format_.words.word_bits))});
 }
 
 TriangleCounts Computation::triangle_counts() const {

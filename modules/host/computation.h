@@ -36,6 +36,7 @@ struct Load {
   std::uint32_t slot = 0;
   std::uint32_t object = 0;  // from 0
   bool park = false;
+  geometry::OperationCounts before;  // operations of the step up to here: it is written then
   object_processor::TriangleWords words;
 };
 inline constexpr std::uint64_t kParkWords = 3;  // the first edge alone: it is then -1 everywhere
@@ -112,6 +113,7 @@ class Computation {
   bool last_guarded_ = false;
   bool first_ = true;
   geometry::OperationCounts operations_;
+  geometry::OperationCounts step_start_;  // of the step that makes loads_
   std::vector<Load> loads_;
 };
 

@@ -57,7 +57,7 @@ void ComputationUnitModule::run_guarded() {
 // 1. receive what changed, and forward it to the units below;
 // 2. transform the triangles, and report whether the frame needs the guard band;
 // 3. receive the frame's grid, and forward it;
-// 4. fit the coefficients, and write them to the loading RAMs;
+// 4. fit the coefficients, and write each slot's to the loading RAMs as they are known;
 // 5. be ready until the retrace at which all are.
 void ComputationUnitModule::run() {
   ready.write(false);
@@ -94,10 +94,7 @@ void ComputationUnitModule::work_on_frame(const FrameWork& work) {
   meter_.enter(Activity::starved, picoseconds_now());
   Message plan = take(Message::Kind::plan);
   forward(plan);
-  before = computation_.operations();
-  const std::vector<Load>& loads = computation_.set_up(plan.guarded, (*plan.placed)[unit_]);
-  spend_computing(before);
-  write_all(loads);
+  fit_and_write(plan);
 }
 
 void ComputationUnitModule::spend_computing(const geometry::OperationCounts& before) {
@@ -109,29 +106,43 @@ void ComputationUnitModule::spend_computing(const geometry::OperationCounts& bef
   wait(stream::to_time(cost_.clock(), cycles));
 }
 
-// Nothing reads a loading RAM but a copy: the words that the bus moves before the next one are written at once, and
-// their time passes afterwards.
-void ComputationUnitModule::write_all(const std::vector<Load>& loads) {
-  std::uint64_t words = 0;
-  for (const Load& load : loads) words += words_of(load);
-  update_.words += words;
+// Each slot is written when its coefficients are known. Nothing reads a loading RAM but a copy: the words that stand
+// there before the next one are written at once, and their time passes afterwards.
+void ComputationUnitModule::fit_and_write(const Message& plan) {
+  const geometry::OperationCounts before = computation_.operations();
+  const std::vector<Load>& loads = computation_.set_up(plan.guarded, (*plan.placed)[unit_]);
+  const geometry::OperationCounts counts = computation_.operations() - before;
+  update_.operations += counts;
+  const Cycles computing = cost_.compute(counts);
+  update_.computing += computing;
+  cut_into_segments(loads, computing);
+  for (const Segment& segment : segments_) update_.words += segment.words;
+  update_.writing = cost_.bus(update_.words);
   load_ = word_ = 0;
-  const BusSchedule schedule =
-      first_ ? BusSchedule(cost_.clock()) : BusSchedule(cost_.clock(), copies_, swap_ps_);
-  for (BusBurst burst(schedule, words, cost_.word(), cycles_since_swap()); !burst.done();) {
+  const BusSchedule schedule = first_ ? BusSchedule(cost_.clock()) : BusSchedule(cost_.clock(), copies_, swap_ps_);
+  for (BusBurst burst(schedule, segments_, cost_.word(), cycles_since_swap()); !burst.done();) {
     const BusBurst::Step step = burst.step();
     write_words(loads, step.words);
-    words_sent_ += step.words;
-    links_.bus->record(cost_.bus_words(step.words), Cycles(cost_.bus_words(step.words)));  // its clock: a word a cycle
-    update_.writing += step.busy;
     update_.stalled += step.blocked;
-    const bool stands_still = step.blocked > Cycles(0);
-    meter_.enter(stands_still ? Activity::blocked : Activity::busy, picoseconds_now());
+    meter_.enter(step.blocked > Cycles(0) ? Activity::blocked : Activity::busy, picoseconds_now());
     wait_until(schedule.picoseconds(burst.cycle()));
   }
 }
 
+void ComputationUnitModule::cut_into_segments(const std::vector<Load>& loads, Cycles computing) {
+  segments_.clear();
+  Cycles computed;
+  for (const Load& load : loads) {
+    const Cycles until = cost_.compute(load.before);
+    segments_.push_back({until - computed, words_of(load)});
+    computed = until;
+  }
+  segments_.push_back({computing - computed, 0});
+}
+
 void ComputationUnitModule::write_words(const std::vector<Load>& loads, std::uint64_t count) {
+  words_sent_ += count;
+  links_.bus->record(cost_.bus_words(count), Cycles(cost_.bus_words(count)));  // its clock moves a word a cycle
   while (count > 0) {
     const Load& load = loads[load_];
     const std::uint64_t left = words_of(load) - word_;

@@ -65,7 +65,8 @@ class ComputationUnitModule : public sc_core::sc_module {
   void report(Survey own);
   void work_on_frame(const FrameWork& work);
   void spend_computing(const geometry::OperationCounts& before);
-  void write_all(const std::vector<Load>& loads);
+  void fit_and_write(const Message& plan);
+  void cut_into_segments(const std::vector<Load>& loads, Cycles computing);
   void write_words(const std::vector<Load>& loads, std::uint64_t count);
   void write(const Load& load, std::size_t first_word, std::size_t count);
   void send_on(MessageInitiator<ComputationUnitModule>& socket, MessagePayload& payload, LinkPort& port);
@@ -94,6 +95,7 @@ class ComputationUnitModule : public sc_core::sc_module {
 
   tlm::tlm_generic_payload write_payload_;
   object_processor::ObjectNumber object_number_;
+  std::vector<Segment> segments_;
   std::size_t load_ = 0;  // of the frame's loads, the one that is being written
   std::size_t word_ = 0;  // and how many words of it are
   Update update_;

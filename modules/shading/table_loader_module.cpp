@@ -62,7 +62,7 @@ void TableLoaderModule::run() {
   for (;; first_ = false) {
     while (!pending_) wait(received_);
     pending_ = false;
-    const double message = static_cast<double>(arrives_ps_ - picoseconds_now()) * 1e-12;
+    const double message = static_cast<double>(arrives_ps_ - swap_ps_) * 1e-12;
     stream::wait_until(arrives_ps_);
     if (changed_) {
       const double longest = plan();
@@ -82,6 +82,7 @@ void TableLoaderModule::run() {
     }
     ready.write(true);
     wait(swapped_);
+    swap_ps_ = picoseconds_now();
     if (first_)
       for (Engine& engine : engines_) engine.meter.restart(picoseconds_now());
     ready.write(false);

@@ -70,6 +70,7 @@ class TableLoaderModule : public sc_core::sc_module {
   bool changed_ = false;
   bool will_change_ = false;
   std::uint64_t arrives_ps_ = 0;
+  std::uint64_t swap_ps_ = 0;  // the retrace that started the frame in hand
   bool first_ = true;
   bool load_at_retrace_ = false;    // the next retrace that copies loads the program
   bool loaded_at_retrace_ = false;  // it has just done so

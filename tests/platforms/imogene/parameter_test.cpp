@@ -95,10 +95,32 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
     written("two.obj", "v -1 0 -1\nv 1 0 -1\nv 0 0 2\nf 1 2 3\n");
   }
 
+  static Change by_instructions(const std::string& operation, const std::string& scene = "turning") {
+    return {.scene = scene, .set = {"host.cost=instructions"}, 
+            .change = {"host.instruction." + operation + "=211.0"}};
+  }
+
   // The machine's, where the next value in a turning scene does not do.
   static std::map<std::string, Change> special_machine_changes() {
     const Settings sequencer{"loader.kind=sequencer"};
+    // One slow unit: its update takes several frames.
+    const Settings late{"host.processors_per_unit=1024", "host.computation_units=1", "host.clock_hz=1000000",
+                        "host.sustained_mflops=0.3"};
     return {
+        {"host.instruction.add", by_instructions("add")},
+        {"host.instruction.multiply", by_instructions("multiply")},
+        {"host.instruction.divide", by_instructions("divide")},
+        {"host.instruction.square_root", by_instructions("square_root", "camera turning")},
+        {"host.instruction.compare", by_instructions("compare")},
+        {"host.instruction.convert", by_instructions("convert")},
+        {"host.instruction.integer", by_instructions("integer")},
+        {"host.instruction.integer_multiply", by_instructions("integer_multiply")},
+        {"host.instruction.operand", by_instructions("operand")},
+        {"host.bus_bits", {.change = {"host.bus_bits=16"}}},
+        {"host.links", {.change = {"host.links=3"}}},
+        {"host.links_available", {.change = {"host.links_available=3"}, .effect = Effect::refused}},
+        {"host.link_packet_bytes", {.set = {"host.link_packet_bits=20.0"}, .change = {"host.link_packet_bytes=4"}}},
+        {"host.swap", {.set = late, .change = {"host.swap=unconditional"}}},
         {"object_processor.word_bits", {.change = {"object_processor.word_bits=25"}}},
         {"host.overflow",
          {.set = {"host.processors_per_unit=20", "host.overflow=drop"},
