@@ -62,7 +62,8 @@ void AnimationUnitModule::run_guarded() {
 
 // A frame:
 // 1. say what changed to the units that it feeds and to the table loader;
-// 2. work out where the lights will stand, wait for their surveys, settle the grid, place pieces of clipped triangles, and say so;
+// 2. work out where the lights will stand, wait for their surveys, settle the grid, place pieces of clipped triangles,
+// and say so;
 // 3. wait for the retrace that shows the frame. The next one is for the frame after that retrace's.
 void AnimationUnitModule::run() {
   announce_frame(0, true);

@@ -207,8 +207,8 @@ void Computation::put(std::uint32_t slot, std::uint32_t object, const object_pro
 }
 
 void Computation::park(std::uint32_t slot) {
-  loads_.push_back(
-      {slot, 0, true, operation_counts - step_start_, object_processor::parked_triangle(static_cast<unsigned>(format_.words.word_bits))});
+  loads_.push_back({slot, 0, true, operation_counts - step_start_,
+                    object_processor::parked_triangle(static_cast<unsigned>(format_.words.word_bits))});
 }
 
 TriangleCounts Computation::triangle_counts() const {

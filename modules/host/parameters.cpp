@@ -50,10 +50,11 @@ void HostParameters::declare(parameter::Table& table) {
               .moves = "answer.update_rate_hz",
               .only_when = parameter::Condition{"host.cost", {"sustained"}}});
   instruction.declare(table);
-  table.integer("host.bus_bits", bus_bits, {8, 64},
-                {.unit = "bits",
-                 .description = "Width of the bus to the object board: a coefficient that is wider takes several words.",
-                 .moves = "links[] bus, units[] busy"});
+  table.integer(
+      "host.bus_bits", bus_bits, {8, 64},
+      {.unit = "bits",
+       .description = "Width of the bus to the object board: a coefficient that is wider takes several words.",
+       .moves = "links[] bus, units[] busy"});
   table.integer("host.bus_cycles_per_word", bus_cycles_per_word, {1, 10000},
                 {.unit = "cycles",
                  .description = "Host clock cycles of one word written to a loading RAM.",
@@ -85,11 +86,10 @@ void HostParameters::declare(parameter::Table& table) {
              {.unit = "bits",
               .description = "Bit times that a packet takes beside its bytes: header, end and acknowledge.",
               .moves = "links[] host links"});
-  table.integer(
-      "host.link_set_up_cycles", link_set_up_cycles, {0, 1'000'000},
-      {.unit = "cycles",
-       .description = "Host clock cycles of the processor to start a message on a link.",
-       .moves = "units[] busy"});
+  table.integer("host.link_set_up_cycles", link_set_up_cycles, {0, 1'000'000},
+                {.unit = "cycles",
+                 .description = "Host clock cycles of the processor to start a message on a link.",
+                 .moves = "units[] busy"});
   table.choice("host.assignment", assignment, {"round_robin", "block"},
                {.unit = "",
                 .description = "Object i goes to board i mod B, or boards are filled in turn.",

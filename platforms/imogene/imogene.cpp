@@ -159,9 +159,8 @@ void Imogene::build_links() {
   for (std::size_t k = 0; k < units; ++k)
     host_links_.push_back(&add_link(fmt::format("host link {}", k), 8, byte_clock));
   light_link_ = &add_link("animation unit to table loader", 8, byte_clock);
-  for (std::size_t k = 0; k < units; ++k) 
-    bus_links_.push_back(
-        &add_link(fmt::format("bus {}", k), static_cast<unsigned>(machine_.host.bus_bits), bus_clock));
+  for (std::size_t k = 0; k < units; ++k)
+    bus_links_.push_back(&add_link(fmt::format("bus {}", k), static_cast<unsigned>(machine_.host.bus_bits), bus_clock));
   for (std::size_t k = 0; k < units; ++k)
     board_links_.push_back(
         &add_link(fmt::format("board {} to decision unit", k), static_cast<unsigned>(width.bits()), timing_.clock));
@@ -197,12 +196,11 @@ void Imogene::build_hosts() {
                                                        cycles_of(machine_.object_processor.comparator_cycles)),
                                machine_.host.swap == host::Swap::unconditional};
   // The retraces are the video timing's, which comes first.
-  video_timing_ = std::make_unique<video::VideoTimingModule>("video_timing", timing_,
-                                                             static_cast<std::size_t>(machine_.video.lines), units + 2,
-                                                             units, options_.frames, kPatienceFrames,
-                                                             machine_.host.swap == host::Swap::unconditional
-                                                                 ? video::VideoTimingModule::Copy::at_every_retrace
-                                                                 : video::VideoTimingModule::Copy::when_ready);
+  video_timing_ = std::make_unique<video::VideoTimingModule>(
+      "video_timing", timing_, static_cast<std::size_t>(machine_.video.lines), units + 2, units, options_.frames,
+      kPatienceFrames,
+      machine_.host.swap == host::Swap::unconditional ? video::VideoTimingModule::Copy::at_every_retrace
+                                                      : video::VideoTimingModule::Copy::when_ready);
   animation_unit_ = std::make_unique<host::AnimationUnitModule>(
       "animation_unit", animation_, cost_, below(0).size(), units, machine_.host.overflow,
       host::AnimationUnitModule::Timeline{&video_timing_->swapped,

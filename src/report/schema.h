@@ -68,7 +68,8 @@ void visit(Visitor& v, run::Answer& a) {
   v.value("initial_load_frames", {"frames", kFormula, "video frames before the first picture"}, a.initial_load_frames);
   v.value("initial_load_us", {"us", kCount, "until the last computation unit has finished the first frame"},
           a.initial_load_us);
-  v.value("initial_load_bytes", {"bytes", kCount, "of meshes that cross the links once, each to the unit that keeps it"},
+  v.value("initial_load_bytes",
+          {"bytes", kCount, "of meshes that cross the links once, each to the unit that keeps it"},
           a.initial_load_bytes);
   v.value("torn_frames", {"frames", kCount, "displayed frames that show a part of an unfinished update"},
           a.torn_frames);

@@ -36,19 +36,21 @@ std::string limits_section(const run::Result& result) {
   table.row({"display", fmt::format("{:.6g}", a.display_rate_hz), "frames scanned out, in whole pixel clocks"});
   table.row({"update", fmt::format("{:.6g}", a.update_rate_hz), "new pictures"});
   text += table.text();
-  text += sentence_line(
-      fmt::format("From the start of an animation frame to the first line of its picture: {}; {} us to its first pixel, "
-                  "{} us to its last.",
-                  counted(a.latency_frames, "frame", "frames"), quantity(a.latency_first_pixel_us),
-                  quantity(a.latency_last_pixel_us)));
   text += sentence_line(fmt::format(
-      "First picture after {} of loading: {} us, {} bytes of meshes, which stay with the hosts. What follows is without "
+      "From the start of an animation frame to the first line of its picture: {}; {} us to its first pixel, "
+      "{} us to its last.",
+      counted(a.latency_frames, "frame", "frames"), quantity(a.latency_first_pixel_us),
+      quantity(a.latency_last_pixel_us)));
+  text += sentence_line(fmt::format(
+      "First picture after {} of loading: {} us, {} bytes of meshes, which stay with the hosts. What follows is "
+      "without "
       "it.",
       counted(a.initial_load_frames, "frame", "frames"), quantity(a.initial_load_us), grouped(a.initial_load_bytes)));
   if (a.torn_frames > 0)
-    text += sentence_line(fmt::format("{} of {} displayed frames are torn: loading RAMs were copied while they were "
-                                      "being written.",
-                                      grouped(a.torn_frames), grouped(result.frame_count)));
+    text +=
+        sentence_line(fmt::format("{} of {} displayed frames are torn: loading RAMs were copied while they were "
+                                  "being written.",
+                                  grouped(a.torn_frames), grouped(result.frame_count)));
   return text;
 }
 

@@ -68,10 +68,11 @@ void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
   budgets.push_back(budget(
       "host.flops", static_cast<double>(load.update.flops()),
       sustained ? host.sustained_mflops * 1e6 * seconds : static_cast<double>(host.clock_hz) * seconds / a_flop, "flop",
-      which + (sustained ? ": operations counted in the code that computes; sustained rate x video frame"
-                         : fmt::format(": operations counted in the code that computes; video frame / {:.4g} cycles, "
-                                       "the mean of these operations by the table of instructions, integer ones included",
-                                       a_flop)),
+      which + (sustained
+                   ? ": operations counted in the code that computes; sustained rate x video frame"
+                   : fmt::format(": operations counted in the code that computes; video frame / {:.4g} cycles, "
+                                 "the mean of these operations by the table of instructions, integer ones included",
+                                 a_flop)),
       sustained ? "host.computation_units, host.sustained_mflops" : "host.computation_units, host.instruction", moves));
   budgets.push_back(budget(
       "host.bus", as_real(load.update.writing), as_real(load.frame), "cycles",

@@ -76,6 +76,9 @@ std::vector<Memory> memory_figures(Imogene& platform) {
   std::vector<Memory> memories;
   memories.push_back({"loading RAMs", processors * object_processor::kElementaryProcessors, 3, word_bits});
   memories.push_back({"backup RAMs", processors * object_processor::kElementaryProcessors, 3, word_bits});
+  // B y + C replaces C line by line: a picture that is shown again without a copy needs C once more.
+  if (machine.host.swap == host::Swap::global)
+    memories.push_back({"backup RAMs: C, kept", processors * object_processor::kElementaryProcessors, 1, word_bits});
   const auto logic = object_processor::triangle_processor_logic(machine.object_processor, machine.material_bits());
   memories.push_back({"object processor registers", processors, 1, logic.register_bits});
   const decision_unit::LinkWidth width{word_bits, static_cast<std::uint64_t>(machine.object_processor.normal_bits),

@@ -95,6 +95,28 @@ TEST_F(BadInputTest, AnotherPlatformOrSchema) {
   refused({"machine.toml:1: schema: ", "9"});
 }
 
+TEST_F(BadInputTest, MoreLinksThanATransputerHas) {
+  write("machine.toml", "schema = 1\nplatform = \"imogene\"\n[host]\npreset = \"t800_20\"\nlinks = 6\n");
+  refused({"machine.toml:5: host.links: is 6, and the host processor t800_20 has 4 serial links"});
+}
+
+TEST_F(BadInputTest, RatesOfAHostThatAreNotAboveZero) {
+  for (const char* key : {"host.clock_hz", "host.sustained_mflops", "host.link_mbit_per_s", "host.link_bits_per_byte",
+                          "host.bus_cycles_per_word", "host.bus_bits"})
+    for (const char* value : {"0", "-20"}) refused({key, value}, {"--set", std::string(key) + '=' + value});
+  refused({"host.instruction.add", "-1"}, {"--set", "host.cost=instructions", "--set", "host.instruction.add=-1.0"});
+}
+
+TEST_F(BadInputTest, PresetThatIsUnknownNamesThoseThatAre) {
+  write("machine.toml", "schema = 1\nplatform = \"imogene\"\n[host]\npreset = \"t900\"\n");
+  refused({"machine.toml:4: host.preset: unknown preset 't900'", "'soft_core', 't800_20', 't800_30', 't805_30', 't9000'",
+           "nearest: 't9000'"});
+}
+
+TEST_F(BadInputTest, InstructionsOfAHostThatIsChargedAtItsRate) {
+  refused({"host.instruction.add", "host.cost is 'instructions'"}, {"--set", "host.instruction.add=9.0"});
+}
+
 TEST_F(BadInputTest, VertexThatIsNotFinite) {
   for (const char* number : {"nan", "inf", "-inf"})
     scene_refused("[[object]]\ntype = \"triangles\"\nmaterial = \"clay\"\npositions = [[0.0, 0.0, 0.0], [1.0, 0.0, " +

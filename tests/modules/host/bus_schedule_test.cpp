@@ -58,8 +58,8 @@ Outcome cycle_by_cycle(const Clock& host, const Copies& copies, const std::vecto
 }
 
 RC_GTEST_PROP(BusBurst, IsWhatSteppingEveryCycleGives, ()) {
-  const Clock host =
-      Clock::from_frequency_hz("host", *rc::gen::element<std::uint64_t>(20'000'000, 30'000'000, 7'000'000, 150'000'000));
+  const Clock host = Clock::from_frequency_hz(
+      "host", *rc::gen::element<std::uint64_t>(20'000'000, 30'000'000, 7'000'000, 150'000'000));
   Copies copies;
   copies.times.clock = Clock::from_period_ns("pixel", *rc::gen::element(60.0, 62.5, 13.468));
   copies.times.duration = Cycles(*rc::gen::inRange<std::uint64_t>(0, 40));

@@ -95,8 +95,8 @@ TEST(HostCost, ByInstructions) {
 TEST(HostCost, WordsOfANarrowBus) {
   HostParameters parameters;
   parameters.bus_cycles_per_word = 3;
-  const std::vector<std::array<std::int64_t, 3>> widths{{8, 24, 3}, {16, 24, 2}, {16, 16, 1}, {24, 24, 1}, {32, 32, 1},
-                                                        {8, 25, 4},  {64, 32, 1}};
+  const std::vector<std::array<std::int64_t, 3>> widths{{8, 24, 3},  {16, 24, 2}, {16, 16, 1}, {24, 24, 1},
+                                                        {32, 32, 1}, {8, 25, 4},  {64, 32, 1}};
   for (const auto& [bus, coefficient, words] : widths) {
     parameters.bus_bits = bus;
     const HostCost cost{parameters, coefficient};

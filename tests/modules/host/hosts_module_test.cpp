@@ -249,8 +249,7 @@ TEST(HostsModule, CopiesStopTheBusOfThreeUnits) {
     const stream::Occupancy& occupancy = hosts.units[k].occupancy(swap_ps + 2 * kFramePs);
     occupancy.check("unit");
     EXPECT_EQ(occupancy.blocked, 10U);
-    EXPECT_EQ(hosts.edges[k].list().back(),
-              (stream::Edges::Edge{swap_ps + update.cycles.count() * kCyclePs, true}));
+    EXPECT_EQ(hosts.edges[k].list().back(), (stream::Edges::Edge{swap_ps + update.cycles.count() * kCyclePs, true}));
   }
 }
 

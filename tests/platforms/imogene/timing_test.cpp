@@ -92,6 +92,7 @@ TEST_P(LatencyTest, IsItsClosedForm) {
               kLinkBits * (pipeline ? processors : tree_registers(processors)));
     EXPECT_EQ(named(result.memories, "loading RAMs").total_bits(), processors * 7 * 3 * 24);
     EXPECT_EQ(named(result.memories, "backup RAMs").total_bits(), processors * 7 * 3 * 24);
+    EXPECT_EQ(named(result.memories, "backup RAMs: C, kept").total_bits(), processors * 7 * 24);
 
     expect_budget(result, "line_start", 9, kBlanking);
     expect_budget(result, "frame_start", 8, kRetrace);
