@@ -50,6 +50,11 @@ void HostParameters::declare(parameter::Table& table) {
               .moves = "answer.update_rate_hz",
               .only_when = parameter::Condition{"host.cost", {"sustained"}}});
   instruction.declare(table);
+  declare_connections(table);
+  declare_policies(table);
+}
+
+void HostParameters::declare_connections(parameter::Table& table) {
   table.integer(
       "host.bus_bits", bus_bits, {8, 64},
       {.unit = "bits",
@@ -90,6 +95,9 @@ void HostParameters::declare(parameter::Table& table) {
                 {.unit = "cycles",
                  .description = "Host clock cycles of the processor to start a message on a link.",
                  .moves = "units[] busy"});
+}
+
+void HostParameters::declare_policies(parameter::Table& table) {
   table.choice("host.assignment", assignment, {"round_robin", "block"},
                {.unit = "",
                 .description = "Object i goes to board i mod B, or boards are filled in turn.",

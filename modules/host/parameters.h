@@ -59,6 +59,10 @@ struct HostParameters {
   void declare(parameter::Table& table);
   // What one range cannot say: `file` names the machine file in the diagnostics.
   void check(Diagnostics& diagnostics, const std::string& file) const;
+
+ private:
+  void declare_connections(parameter::Table& table);
+  void declare_policies(parameter::Table& table);
 };
 
 }  // namespace rastertlm::host

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <deque>
 
 #include "modules/object_processor/bus_address.h"
@@ -75,9 +76,9 @@ std::vector<std::vector<Work>> work_of(const Hosts& hosts, std::int64_t frames) 
 std::vector<std::uint64_t> chain_schedule(std::uint64_t bytes, const std::vector<Work>& work,
                                           std::uint64_t (*message)(std::uint64_t) = twenty_megahertz) {
   const std::uint64_t start = message(0);
-  std::vector<std::uint64_t> surveyed;
+  std::array<std::uint64_t, 3> surveyed{};
   for (std::size_t k = 0; k < 3; ++k)
-    surveyed.push_back((k + 1) * message(bytes) + (k < 2 ? start : 0) + compute(work[k].survey));
+    surveyed[k] = (k + 1) * message(bytes) + (k < 2 ? start : 0) + compute(work[k].survey);
   const std::uint64_t from_2 = surveyed[2] + message(5);
   const std::uint64_t from_1 = std::max(surveyed[1], from_2) + message(9);
   const std::uint64_t settled = std::max(surveyed[0], from_1) + message(13);
