@@ -6,21 +6,16 @@
 #include <cmath>
 
 #include "modules/object_processor/microprogram.h"
-#include "modules/shading/loader_budget.h"
+#include "src/run/budget.h"
+#include "src/run/delay_budgets.h"
+#include "src/run/table_budgets.h"
 
 namespace rastertlm::run {
 namespace {
 
 using imogene::Imogene;
 
-constexpr const char* kLoaderKeys = "loader.kind, loader.when, the loader's clocks and cycles";
-
 double as_real(Cycles cycles) { return static_cast<double>(cycles.count()); }
-
-Budget budget(const std::string& name, double used, double available, const std::string& unit,
-              const std::string& source, const std::string& moved_by, bool applies = true) {
-  return {name, used, available, unit, used <= available, applies, source, moved_by};
-}
 
 void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) {
   const imogene::Machine& machine = platform.machine();
@@ -42,14 +37,6 @@ void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
              "the last processor works later than the first by one comparator each (0 in a tree), then "
              "copies; vertical retrace",
              "decision_unit.topology, host.computation_units, host.processors_per_unit, video.vertical_retrace_us"));
-  const double period = timing.clock.period_ns();
-  budgets.push_back(
-      budget("adder_delay", machine.object_processor.adder_delay_ns(), period, "ns",
-             fmt::format("{} + {} a bit x {} bits; the pixel clock's period ({} slices of the {}-bit word would fit)",
-                         machine.object_processor.adder_ns, machine.object_processor.adder_ns_per_bit,
-                         machine.object_processor.slice_bits, machine.object_processor.slices_that_fit(period),
-                         machine.object_processor.word_bits),
-             "object_processor.slice_bits, video.pixel_clock_ns"));
 }
 
 void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
@@ -86,49 +73,6 @@ void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
       fmt::format("one an object (triangle) of the scene, and {} for pieces of clipped ones; units x processors a unit",
                   platform.most_pieces()),
       "host.computation_units, host.processors_per_unit"));
-}
-
-void add_table_budgets(Imogene& platform, std::vector<Budget>& budgets) {
-  const imogene::Machine& machine = platform.machine();
-  const bool sequencer = machine.loader.kind == shading::LoaderKind::sequencer;
-  const double retrace_us = machine.video.vertical_retrace_us;
-  const double frame_us = platform.timing().clock.seconds(platform.timing().frame) * 1e6;
-  const double obtained_retrace_us = platform.timing().clock.seconds(platform.timing().vertical_retrace) * 1e6;
-  const double own_us = machine.loader.when == shading::LoadTime::retrace ? obtained_retrace_us : frame_us;
-  const double update_us = platform.table_loader().longest_load_seconds() * 1e6;
-  const std::vector<shading::LoadBudget> loads =
-      shading::load_budgets(machine.shading, machine.loader, machine.shading.materials);
-  const auto seconds_of = [&](const std::string& table) {
-    for (const auto& load : loads)
-      if (load.name == table + (sequencer ? ".load_sequencer" : ".load_68000")) return load.used;
-    return 0.0;
-  };
-  for (const shading::LoadBudget& load : loads) {
-    const std::string table = load.name.substr(0, load.name.find('.'));
-    if (load.unit == "words") {
-      const double in_time = load.used * own_us / seconds_of(table);
-      budgets.push_back(budget(load.name, load.used, std::floor(in_time), load.unit,
-                               load.source + "; words that this machine's loader writes in its time", "", false));
-    } else if (load.unit == "us") {
-      // The paper sets the sequencer against the retrace and the 68000s against the frame.
-      const bool by_sequencer = load.name.ends_with("_sequencer");
-      const double available = by_sequencer ? retrace_us : frame_us;
-      // Of the tables, those of the dot products alone change while a scene is shown: with the camera.
-      const bool applies = update_us > 0.0 && by_sequencer == sequencer && table == "dot_table" &&
-                           (by_sequencer == (machine.loader.when == shading::LoadTime::retrace));
-      budgets.push_back(budget(load.name, load.used, available, load.unit,
-                               load.source + (by_sequencer ? "; vertical retrace" : "; video frame"), kLoaderKeys,
-                               applies));
-    } else {
-      budgets.push_back(budget(load.name, load.used, load.used, load.unit, load.source, "", false));
-    }
-  }
-  budgets.push_back(budget("tables.update", update_us, own_us, "us",
-                           machine.loader.when == shading::LoadTime::retrace
-                               ? "what a frame of this run loads, slowest loader; vertical retrace"
-                               : "what a frame of this run loads into the other bank, slowest loader, with the message "
-                                 "that says so; video frame",
-                           kLoaderKeys, update_us > 0.0));
 }
 
 void take(Bottleneck& worst, const std::string& unit, const std::string& resource, double utilisation) {
@@ -206,6 +150,7 @@ HostLoad host_load(Imogene& platform) {
 std::vector<Budget> imogene_budgets(Imogene& platform) {
   std::vector<Budget> budgets;
   add_display_budgets(platform, budgets);
+  add_delay_budgets(platform, budgets);
   add_host_budgets(platform, budgets);
   add_table_budgets(platform, budgets);
   return budgets;
