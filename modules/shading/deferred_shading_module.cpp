@@ -44,11 +44,9 @@ void DeferredShadingModule::write(tlm::tlm_generic_payload& payload, sc_core::sc
     payload.set_response_status(payload.is_write() ? tlm::TLM_ADDRESS_ERROR_RESPONSE : tlm::TLM_COMMAND_ERROR_RESPONSE);
     return;
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, payload.get_data_ptr() + i * sizeof(word), sizeof(word));
-    shader_.back().write(static_cast<std::uint32_t>(first + i), word);
-  }
+  words_.resize(count);
+  std::memcpy(words_.data(), payload.get_data_ptr(), count * sizeof(std::uint32_t));
+  shader_.back().write(static_cast<std::uint32_t>(first), words_);
   words_loaded_ += count;
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
 }

@@ -5,6 +5,7 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include <systemc>
+#include <vector>
 
 #include "modules/shading/deferred_shader.h"
 #include "modules/stream/line_payload.h"
@@ -38,6 +39,7 @@ class DeferredShadingModule : public sc_core::sc_module {
   stream::Link& link_;
   frame::RgbLine rgb_;
   stream::RgbPayload payload_;
+  std::vector<std::uint32_t> words_;  // of a burst
   std::uint64_t words_loaded_ = 0;
 };
 

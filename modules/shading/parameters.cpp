@@ -11,6 +11,8 @@ using parameter::About;
 using parameter::Condition;
 using parameter::Table;
 
+constexpr const char* kReading = "budgets[] table_access, table_store";
+
 void declare_latency(StageLatencies& latency, Table& table) {
   const std::string moves = "latency of the shading processor";
   table.integer("shading.latency.normaliser", latency.normaliser, {0, 1000},
@@ -58,6 +60,14 @@ void ShadingParameters::declare(Table& table) {
   table.integers("shading.exponents", exponents, {1, 1000},
                  About{"", "Specular exponents whose paths the ROM holds.", "memory bits of the path ROM"});
   declare_latency(latency, table);
+  table.text("shading.preset", preset,
+             About{"", "Memory of the tables: sets the times of its reading that the file does not.", kReading});
+  const auto time = [&](const std::string& path, double& target, const std::string& text) {
+    table.real("shading." + path, target, {0.0, 100000.0}, About{"ns", text, kReading});
+  };
+  time("table_address_ns", table_address_ns, "Delay of the register that holds a table's address.");
+  time("table_access_ns", table_access_ns, "Access time of the memories of the tables, address to data.");
+  time("table_set_up_ns", table_set_up_ns, "Set-up time of the register that takes a table's word.");
 }
 
 void ShadingParameters::check(std::int64_t normal_bits, const std::string& file, Diagnostics& diagnostics) const {
@@ -89,35 +99,6 @@ void ShadingParameters::check(std::int64_t normal_bits, const std::string& file,
 
 Cycles ShadingParameters::total_latency() const {
   return Cycles(static_cast<std::uint64_t>(latency.normaliser + latency.dot_product + latency.tables + latency.adders));
-}
-
-void LoaderParameters::declare(Table& table) {
-  const std::string time = "load times of the shading tables";
-  table.choice("loader.kind", kind, {"mc68000", "sequencer"},
-               About{"", "Microprocessors, or a wired sequencer that writes one entry a clock.", time});
-  table.choice("loader.when", when, {"frame", "retrace"},
-               About{"", "During the previous frame into a second bank, or during vertical retrace.",
-                     "memory bits, and when new tables show"});
-  table.choice("loader.materials", materials, {"used", "all"},
-               About{"", "Load the tables of materials that the scene uses, or of all that the machine has.", time});
-  table.integer("loader.argument_cycles", argument_cycles, {0, 1000},
-                About{"steps", "Steps to change the arguments of the specular algorithm, a material.", time});
-  const Condition sequencer{"loader.kind", {"sequencer"}};
-  const Condition processors{"loader.kind", {"mc68000"}};
-  table.real("loader.sequencer_clock_ns", sequencer_clock_ns, {0.1, 10000.0},
-             About{"ns", "Clock period of the wired sequencer.", time, sequencer});
-  const auto real = [&](const std::string& path, double& target, const std::string& unit, const std::string& text) {
-    table.real("loader." + path, target, {0.01, 100000.0}, About{unit, text, time, processors});
-  };
-  real("dot_clock_mhz", dot_clock_mhz, "MHz", "Clock of the 68000 of a dot-product unit.");
-  real("dot_cycles", dot_cycles, "cycles", "Cycles of the 68000 an entry of a dot-product table.");
-  real("diffuse_clock_mhz", diffuse_clock_mhz, "MHz", "Clock of the 68000 of a diffuse colour.");
-  real("diffuse_cycles", diffuse_cycles, "cycles",
-       "Cycles of the 68000 an entry of a diffuse table, loop overhead shared.");
-  real("specular_clock_mhz", specular_clock_mhz, "MHz", "Clock of the 68000 of a specular table.");
-  real("specular_right_cycles", specular_right_cycles, "cycles",
-       "Cycles of the 68000 a horizontal move, which stores.");
-  real("specular_up_cycles", specular_up_cycles, "cycles", "Cycles of the 68000 a vertical move.");
 }
 
 }  // namespace rastertlm::shading

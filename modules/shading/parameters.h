@@ -1,4 +1,5 @@
-// What a deferred shading processor and its table loader are: declared once, here. 004, sections 5.3.4 to 5.3.7.
+// What a deferred shading processor is: declared once, here (its table loaders: loader_parameters.h). 004,
+// sections 5.3.4 to 5.3.7.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +39,11 @@ struct ShadingParameters {
   std::int64_t specular_tables = 1;        // a light: 1 (white highlights, mean of I) or 3
   std::vector<std::int64_t> exponents{1, 2, 4, 5, 8, 10, 16, 20, 32, 50, 64, 100, 128, 200};  // of the path ROM
   StageLatencies latency;
+  // Static memories of the tables: which grade, and what a read takes of it.
+  std::string preset = "cy7c162_35";
+  double table_address_ns = 10.0;  // the register that holds the address
+  double table_access_ns = 35.0;   // address to data
+  double table_set_up_ns = 5.0;    // of the register that takes the data
 
   // Paths "shading.lights" ...
   void declare(parameter::Table& table);
@@ -48,29 +54,8 @@ struct ShadingParameters {
 
   // From the normal's word to the RGB levels, in pixel clocks.
   Cycles total_latency() const;
-};
-
-enum class LoaderKind { mc68000, sequencer };
-enum class LoadTime { frame, retrace };
-enum class LoadedMaterials { used, all };
-
-// Who fills the tables, when, and what a step costs. Costs of the 68000: MC68000 instruction times, zero wait states.
-struct LoaderParameters {
-  LoaderKind kind = LoaderKind::mc68000;
-  LoadTime when = LoadTime::frame;                    // frame: two banks; retrace: one
-  LoadedMaterials materials = LoadedMaterials::used;  // of those that changed
-  std::int64_t argument_cycles = 1;                   // steps to change exponent and Ks, a material (004: "1280")
-  double sequencer_clock_ns = 60.0;                   // one step a clock
-  double dot_clock_mhz = 8.0;
-  double dot_cycles = 26.0;  // an entry: add.l 8, move.w 8, dbra 10; 6144 entries in 19.97 ms of 20
-  double diffuse_clock_mhz = 16.0;
-  double diffuse_cycles = 18.5;  // an entry: add.l 8, move.w 8, dbra 10 a loop of four; one 68000 a colour
-  double specular_clock_mhz = 12.5;
-  double specular_right_cycles = 12.0;  // move.l Dn,(An)+: straight-line op-codes, no dbra
-  double specular_up_cycles = 8.0;      // add.l Dn,Dn; also what an argument step costs
-
-  // Paths "loader.kind" ...
-  void declare(parameter::Table& table);
+  // From the clock edge that gives a table its address to the earliest one that can take its word.
+  double table_read_ns() const { return table_address_ns + table_access_ns + table_set_up_ns; }
 };
 
 }  // namespace rastertlm::shading

@@ -81,6 +81,37 @@ void TableBank::write(std::uint32_t address, std::uint32_t value) {
   write(place.table, place.entry, value);
 }
 
+void TableBank::write(std::uint32_t address, std::span<const std::uint32_t> values) {
+  const auto copy = [&values](auto& memory, std::uint32_t entry, std::uint32_t mask) {
+    using Word = typename std::remove_reference_t<decltype(memory)>::value_type;
+    const std::size_t count = std::min<std::size_t>(memory.size() - entry, values.size());
+    for (std::size_t i = 0; i < count; ++i) memory[entry + i] = static_cast<Word>(values[i] & mask);
+    return count;
+  };
+  while (!values.empty()) {
+    const EntryAddress place = decode(address);
+    std::size_t written = 1;
+    switch (place.table.kind) {
+      case TableKind::diffuse_dot:
+        written = copy(lights[place.table.light].diffuse.products[place.table.component], place.entry, dot_mask_);
+        break;
+      case TableKind::specular_dot:
+        written = copy(lights[place.table.light].specular.products[place.table.component], place.entry, dot_mask_);
+        break;
+      case TableKind::diffuse:
+        written = copy(material_tables[place.table.light].diffuse[place.table.component], place.entry, level_mask_);
+        break;
+      case TableKind::specular:
+        written = copy(material_tables[place.table.light].specular[place.table.component], place.entry, level_mask_);
+        break;
+      default:
+        write(place.table, place.entry, values.front());
+    }
+    values = values.subspan(written);
+    address += static_cast<std::uint32_t>(written);
+  }
+}
+
 void TableBank::write(const TableId& table, std::uint32_t entry, std::uint32_t value) {
   const auto level = static_cast<std::uint8_t>(value & level_mask_);
   switch (table.kind) {

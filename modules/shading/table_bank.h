@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "modules/shading/parameters.h"
@@ -72,6 +73,8 @@ class TableBank {
 
   // Bits that the memory does not have are dropped.
   void write(std::uint32_t address, std::uint32_t value);
+  // Consecutive addresses; all must exist.
+  void write(std::uint32_t address, std::span<const std::uint32_t> values);
   void write(const TableId& table, std::uint32_t entry, std::uint32_t value);
   std::uint32_t read(const TableId& table, std::uint32_t entry) const;
   std::uint32_t read(std::uint32_t address) const {

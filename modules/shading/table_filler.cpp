@@ -40,16 +40,8 @@ FillStep PathFiller::step() {
   return step;
 }
 
-void fill(std::span<const Move> moves, const PathScale& scale, std::span<std::uint8_t> out) {
-  std::uint32_t word = scale.preset;
-  std::size_t address = 0;
-  for (const Move move : moves) {
-    if (move == Move::up) {
-      word += scale.ks;
-    } else {
-      out[address++] = static_cast<std::uint8_t>(word >> scale.error_bits);
-    }
-  }
+Ramp slice(const Ramp& ramp, std::uint32_t first, std::uint32_t entries) {
+  return {ramp.increment, ramp.preset + first * ramp.increment, ramp.error_bits, entries};
 }
 
 }  // namespace rastertlm::shading

@@ -19,7 +19,7 @@ namespace rastertlm::shading {
 // The arguments of a ramp: entry i is (preset + i * increment) >> error_bits.
 struct Ramp {
   std::uint64_t increment = 0;
-  std::uint64_t preset = 0;  // of the error register, below 2^error_bits
+  std::uint64_t preset = 0;  // of the register; below 2^error_bits, but for a slice of a longer ramp
   unsigned error_bits = 0;
   std::uint32_t entries = 0;
   friend bool operator==(const Ramp&, const Ramp&) = default;
@@ -68,7 +68,8 @@ class PathFiller {
   PathFiller(std::span<const Move> moves, const PathScale& scale)
       : moves_(moves), scale_(scale), error_(scale.preset) {}
   bool done() const { return position_ == moves_.size(); }
-  FillStep step();  // !done()
+  Move next() const { return moves_[position_]; }  // !done()
+  FillStep step();                                 // !done()
 
   // The registers before the next step, as figure 5.11 lists them.
   std::uint32_t address() const { return address_; }
@@ -94,6 +95,20 @@ void fill(const Ramp& ramp, std::span<Word> out) {
     word += ramp.increment;
   }
 }
-void fill(std::span<const Move> moves, const PathScale& scale, std::span<std::uint8_t> out);
+template <class Word>
+void fill(std::span<const Move> moves, const PathScale& scale, std::span<Word> out) {
+  std::uint32_t word = scale.preset;
+  std::size_t address = 0;
+  for (const Move move : moves) {
+    if (move == Move::up) {
+      word += scale.ks;
+    } else {
+      out[address++] = static_cast<Word>(word >> scale.error_bits);
+    }
+  }
+}
+
+// The part of a ramp from entry `first` on, `entries` long: its register starts with what the entries before add up to.
+Ramp slice(const Ramp& ramp, std::uint32_t first, std::uint32_t entries);
 
 }  // namespace rastertlm::shading

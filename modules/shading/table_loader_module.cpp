@@ -18,8 +18,6 @@ using stream::picoseconds_now;
 
 namespace {
 
-std::size_t engine_of(TableKind kind) { return kind == TableKind::diffuse ? 1 : kind == TableKind::specular ? 2 : 0; }
-
 std::uint64_t to_picoseconds(double seconds) { return static_cast<std::uint64_t>(std::llround(seconds * 1e12)); }
 
 }  // namespace
@@ -38,7 +36,10 @@ TableLoaderModule::TableLoaderModule(const sc_core::sc_module_name& name, Deferr
       materials_(std::move(materials)),
       retrace_ps_(retrace_ps),
       swapped_(swapped),
-      engines_(std::move(engines)) {
+      engines_(std::move(engines)),
+      sink_([this](const TableId& table, std::uint32_t first, std::span<const std::uint32_t> words) {
+        write(table, first, words);
+      }) {
   lights.register_b_transport(this, &TableLoaderModule::receive);
   sync.register_b_transport(this, &TableLoaderModule::synchronise);
   write_payload_.set_command(tlm::TLM_WRITE_COMMAND);
@@ -46,54 +47,81 @@ TableLoaderModule::TableLoaderModule(const sc_core::sc_module_name& name, Deferr
   write_payload_.set_dmi_allowed(false);
   SC_HAS_PROCESS(TableLoaderModule);
   SC_THREAD(run_guarded);
+  SC_THREAD(run_loads_guarded);
 }
 
 void TableLoaderModule::run_guarded() {
   stream::run_guarded([this] { run(); });
 }
 
+void TableLoaderModule::run_loads_guarded() {
+  stream::run_guarded([this] { run_loads(); });
+}
+
 // A frame:
-// 1. wait for its lights; where nothing changed the tables stay;
-// 2. in the second bank (and before the first picture) load during the frame, each loader for its own time;
-//    with one bank, be ready at once, and load when the retrace comes (synchronise);
-// 3. be ready until the retrace that shows the frame.
+// 1. wait for its lights, and for the end of a load of the only bank; where nothing changed the tables stay;
+// 2. in the second bank (and before the first picture) load during the frame, each loader for its own time; with one
+//    bank, be ready at once, and load when the next retrace comes that copies (run_load);
+// 3. be ready until the retrace that shows the whole frame.
 void TableLoaderModule::run() {
   ready.write(false);
   for (;; first_ = false) {
     while (!pending_) wait(received_);
     pending_ = false;
-    const double message = static_cast<double>(arrives_ps_ - swap_ps_) * 1e-12;
     stream::wait_until(arrives_ps_);
-    if (changed_) {
-      const double longest = plan();
-      if (!first_) longest_load_seconds_ = std::max(longest_load_seconds_, longest + (at_retrace() ? 0.0 : message));
-      if (first_ || !at_retrace()) {
-        load();
-        if (first_ && will_change_ && !at_retrace()) load_other_bank();
-      } else if (to_picoseconds(longest) > retrace_ps_) {
-        throw InputError({"", 0, "loader.when",
-                          fmt::format("the tables that change with every frame take {:.6g} us to load, and the "
-                                      "vertical retrace has {:.6g} us; a faster loader, or "
-                                      "loader.when = \"frame\", would do",
-                                      longest * 1e6, static_cast<double>(retrace_ps_) * 1e-6)});
-      } else {
-        load_at_retrace_ = true;
-      }
-    }
+    while (work_ == Work::running) wait(finished_);
+    if (std::exchange(changed_, false)) prepare();
     ready.write(true);
     wait(swapped_);
     swap_ps_ = picoseconds_now();
     if (first_)
       for (Engine& engine : engines_) engine.meter.restart(picoseconds_now());
     ready.write(false);
-    if (std::exchange(loaded_at_retrace_, false)) occupy_engines();
   }
 }
 
-// Into the bank that is not in use, in the time that the engines need.
+// The loads of the only bank: each begins with a retrace, and goes on into the frame if it must.
+void TableLoaderModule::run_loads() {
+  for (;;) {
+    wait(started_);
+    occupy_engines();
+    finish();
+    finished_.notify();  // at once: what ends with the retrace is in time for it
+  }
+}
+
+void TableLoaderModule::prepare() {
+  plan();
+  const double message = at_retrace() ? 0.0 : static_cast<double>(arrives_ps_ - swap_ps_) * 1e-12;
+  if (!first_) longest_load_seconds_ = std::max(longest_load_seconds_, load_.seconds() + message);
+  if (first_ || !at_retrace()) {
+    load();
+    if (first_ && will_change_ && !at_retrace()) load_other_bank();
+  } else {
+    if (parameters_.on_overrun == Overrun::refuse && to_picoseconds(load_.seconds()) > retrace_ps_) refuse();
+    work_ = Work::planned;
+  }
+}
+
+// What must be loaded, and by whom.
+void TableLoaderModule::plan() {
+  load_ = SharedLoad(shader_.program(shader_.back_record(), materials_), parameters_);
+  work_ = Work::none;
+}
+
+void TableLoaderModule::refuse() const {
+  throw InputError({"", 0, "loader.when",
+                    fmt::format("the tables that change with every frame take {:.6g} us to load, and the vertical "
+                                "retrace has {:.6g} us; a faster loader, loader.when = \"frame\" or "
+                                "loader.on_overrun = \"show\" would do",
+                                load_.seconds() * 1e6, static_cast<double>(retrace_ps_) * 1e-6)});
+}
+
+// Into the bank that is not in use, in the time that the loaders need.
 void TableLoaderModule::load() {
-  write_all();
+  start();
   occupy_engines();
+  finish();
 }
 
 // Before the first picture both banks are filled, so that a frame's load is what the frame changes.
@@ -103,17 +131,21 @@ void TableLoaderModule::load_other_bank() {
   load();
 }
 
-// Every engine is busy from now on for as long as its slowest loader.
+// The registers change at once; the tables hold what they held, but for what is written from now on.
+void TableLoaderModule::start() {
+  started_ps_ = picoseconds_now();
+  for (const TableJob& job : load_.program().jobs) shader_.back_record().forget(job);
+  write_registers();
+  work_ = Work::running;
+}
+
+// Every engine is busy from the start of the load on for as long as its slowest loader.
 void TableLoaderModule::occupy_engines() {
-  const std::uint64_t start = picoseconds_now();
-  std::array<double, kEngines> busy{};
-  for (const auto& [loader, seconds] : seconds_)
-    busy[engine_of(loader.kind)] = std::max(busy[engine_of(loader.kind)], seconds);
   std::vector<std::pair<std::uint64_t, std::size_t>> ends;
   for (std::size_t engine = 0; engine < kEngines; ++engine) {
-    if (busy[engine] == 0.0) continue;
-    engines_[engine].meter.enter(Activity::busy, start);
-    ends.emplace_back(start + to_picoseconds(busy[engine]), engine);
+    if (load_.seconds(engine) == 0.0) continue;
+    engines_[engine].meter.enter(Activity::busy, started_ps_);
+    ends.emplace_back(started_ps_ + to_picoseconds(load_.seconds(engine)), engine);
   }
   std::sort(ends.begin(), ends.end());
   for (const auto& [end, engine] : ends) {
@@ -122,50 +154,36 @@ void TableLoaderModule::occupy_engines() {
   }
 }
 
-// What must be loaded, and how long each loader takes for it. Returns the longest, in seconds.
-double TableLoaderModule::plan() {
-  program_ = shader_.program(shader_.back_record(), materials_);
-  seconds_.clear();
-  double longest = 0.0;
-  for (const TableJob& job : program_.jobs) {
-    double& seconds = seconds_[loader_of(job)];
-    seconds += job_seconds(parameters_, job);
-    longest = std::max(longest, seconds);
-  }
-  return longest;
-}
-
-void TableLoaderModule::write_all() {
-  std::array<std::uint64_t, kEngines> stored{};
-  for (const TableJob& job : program_.jobs) {
-    write_job(job);
-    stored[engine_of(job.table.kind)] += words_.size();
+void TableLoaderModule::finish() {
+  load_.finish(sink_);
+  std::uint64_t planned = 0;
+  for (const TableJob& job : load_.program().jobs) {
+    planned += stores_of(job);
     shader_.back_record().mark(job);
   }
-  for (std::size_t i = 0; i < kEngines; ++i) {
-    const std::uint64_t steps = stored[i] / engines_[i].loaders;
-    engines_[i].link->record(steps, Cycles(steps));
-  }
-  for (const RegisterWrite& value : program_.registers) {
-    words_.assign(1, value.value);
-    write_words(value.table, value.entry);
-  }
+  if (load_.stores_done() != planned)
+    throw ModelError(name(), 0, fmt::format("a load of {} words has stored {}", planned, load_.stores_done()));
+  work_ = at_retrace() ? Work::none : Work::done;
 }
 
-void TableLoaderModule::write_job(const TableJob& job) {
-  if (const Ramp* ramp = std::get_if<Ramp>(&job.arguments)) {
-    words_.resize(ramp->entries);
-    fill(*ramp, std::span<std::uint32_t>(words_));
-  } else {
-    const ScaledPath& path = std::get<ScaledPath>(job.arguments);
-    levels_.resize(shader_.back().material_tables.empty() ? 0 : std::size_t{1} << shader_.parameters().index_bits);
-    fill(path.moves, path.scale, std::span<std::uint8_t>(levels_));
-    words_.assign(levels_.begin(), levels_.end());
+// To what the loaders have done at `picoseconds`, or when the first pixel of a line that starts then reads their
+// tables. Whether that is not all.
+bool TableLoaderModule::advance(std::uint64_t picoseconds, bool to_line) {
+  bool late = false;
+  for (std::size_t engine = 0; engine < kEngines; ++engine) {
+    const std::uint64_t elapsed = picoseconds + (to_line ? engines_[engine].reached_ps : 0) - started_ps_;
+    load_.advance_to(engine, static_cast<double>(elapsed) * 1e-12, sink_);
+    late = late || to_picoseconds(load_.seconds(engine)) > elapsed;
   }
-  write_words(job.table, job.first_entry);
+  return late;
 }
 
-void TableLoaderModule::write_words(const TableId& table, std::uint32_t first_entry) {
+void TableLoaderModule::close(std::uint64_t end_ps) {
+  if (work_ == Work::running) advance(end_ps, false);
+}
+
+void TableLoaderModule::write(const TableId& table, std::uint32_t first_entry, std::span<const std::uint32_t> words) {
+  words_.assign(words.begin(), words.end());
   write_payload_.set_address(std::uint64_t{shader_.back().address(table, first_entry)} << kTableWordShift);
   write_payload_.set_data_ptr(reinterpret_cast<unsigned char*>(words_.data()));
   write_payload_.set_data_length(static_cast<unsigned>(words_.size() * sizeof(std::uint32_t)));
@@ -175,28 +193,50 @@ void TableLoaderModule::write_words(const TableId& table, std::uint32_t first_en
   bus->b_transport(write_payload_, delay);
   if (write_payload_.is_response_error())
     throw ModelError(name(), 0, "the tables refused a write: " + write_payload_.get_response_string());
-  words_sent_ += words_.size();
+  words_sent_ += words.size();
+  if (table.kind >= TableKind::signs) return;  // a register: the host writes it
+  Engine& engine = engines_[engine_of(table.kind)];
+  std::uint64_t& stored = stored_[engine_of(table.kind)];
+  stored += words.size();
+  engine.link->record(stored / engine.loaders, Cycles(stored / engine.loaders));
+  stored %= engine.loaders;
+}
+
+void TableLoaderModule::write_registers() {
+  for (const RegisterWrite& value : load_.program().registers) write(value.table, value.entry, {&value.value, 1});
 }
 
 void TableLoaderModule::receive(LightPayload& payload, sc_core::sc_time& delay) {
-  changed_ = payload.changed;
+  changed_ = changed_ || payload.changed;
   will_change_ = payload.will_change;
   arrives_ps_ = picoseconds_now() + delay.value();
-  if (changed_)
+  if (payload.changed)
     for (std::size_t i = 0; i < payload.lights.size(); ++i) shader_.set_light(i, payload.lights[i]);
   pending_ = true;
   received_.notify(sc_core::SC_ZERO_TIME);
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
 }
 
-void TableLoaderModule::synchronise(stream::SyncPayload& payload, sc_core::sc_time&) {
+void TableLoaderModule::synchronise(stream::SyncPayload& payload, sc_core::sc_time& delay) {
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
-  if (payload.kind != stream::SyncPayload::Kind::retrace || !payload.copy) return;
-  payload.switch_tables = changed_ && !at_retrace();
-  if (!load_at_retrace_) return;
-  load_at_retrace_ = false;
-  loaded_at_retrace_ = true;
-  write_all();
+  if (payload.kind == stream::SyncPayload::Kind::retrace) {
+    late_lines_of_frame_ = 0;
+    if (payload.copy) start_of_retrace(payload);
+  } else if (work_ == Work::running && at_retrace() && advance(picoseconds_now() + delay.value(), true)) {
+    ++late_lines_of_frame_;
+    ++late_lines_;
+  }
+}
+
+// Two banks: the other one is used from now on, if its own load has ended. One: its load begins.
+void TableLoaderModule::start_of_retrace(stream::SyncPayload& payload) {
+  if (work_ == Work::done) {
+    payload.switch_tables = true;
+    work_ = Work::none;
+  } else if (work_ == Work::planned) {
+    start();
+    started_.notify(sc_core::SC_ZERO_TIME);
+  }
 }
 
 }  // namespace rastertlm::shading

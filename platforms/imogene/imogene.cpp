@@ -244,26 +244,32 @@ void Imogene::build_shading() {
       "deferred_shading", shader_, columns, timing_.clock, machine_.shading.total_latency(), rgb);
 
   const bool sequencer = machine_.loader.kind == shading::LoaderKind::sequencer;
+  // A line's first pixel reads the dot-product tables behind the normaliser, the others behind the dot products.
+  const Cycles reads_dots = timing_.horizontal_blanking + cycles_of(machine_.object_processor.prenormalisation_cycles) +
+                            decision_latency_ + cycles_of(machine_.shading.latency.normaliser);
+  const Cycles reads_levels = reads_dots + cycles_of(machine_.shading.latency.dot_product);
   const auto engine = [&](const char* name, shading::TableKind kind, double mhz, std::int64_t bits,
-                          std::int64_t loaders) {
+                          std::int64_t tables) {
     const Clock clock = sequencer ? Clock::from_period_ns(name, machine_.loader.sequencer_clock_ns)
                                   : Clock::from_period_ns(name, 1e3 / mhz);
     const Clock steps = Clock::from_period_ns(name, 1e9 * shading::step_seconds(machine_.loader, kind, false));
+    const std::int64_t loaders = tables * shading::units_of(machine_.loader, kind);
     stream::Link& link = add_link(fmt::format("{} to tables", name), static_cast<unsigned>(bits * loaders), steps);
     table_links_.push_back(&link);
-    return shading::TableLoaderModule::Engine{&link, static_cast<std::uint64_t>(loaders),
-                                              stream::OccupancyMeter(clock)};
+    const bool dots = shading::engine_of(kind) == 0;
+    return shading::TableLoaderModule::Engine{&link, static_cast<std::uint64_t>(loaders), stream::OccupancyMeter(clock),
+                                              timing_.clock.picoseconds(dots ? reads_dots : reads_levels)};
   };
   const std::int64_t lights = machine_.shading.lights;
   table_loader_ = std::make_unique<shading::TableLoaderModule>(
       "table_loader", shader_, machine_.loader, loaded_materials(machine_, scene_),
       timing_.clock.picoseconds(timing_.vertical_retrace), video_timing_->swapped,
       std::array<shading::TableLoaderModule::Engine, 3>{
-          engine("dot product loader", shading::TableKind::diffuse_dot, machine_.loader.dot_clock_mhz,
+          engine("dot product loader", shading::TableKind::diffuse_dot, machine_.loader.dot.clock_mhz,
                  machine_.shading.dot_table_output_bits, 2 * lights),
-          engine("diffuse loader", shading::TableKind::diffuse, machine_.loader.diffuse_clock_mhz,
+          engine("diffuse loader", shading::TableKind::diffuse, machine_.loader.diffuse.clock_mhz,
                  machine_.shading.level_bits, 3 * lights),
-          engine("specular loader", shading::TableKind::specular, machine_.loader.specular_clock_mhz,
+          engine("specular loader", shading::TableKind::specular, machine_.loader.specular.clock_mhz,
                  machine_.shading.level_bits, machine_.shading.specular_tables * lights)});
 }
 
@@ -305,15 +311,16 @@ void Imogene::bind_hosts() {
   video_timing_->tables_ready.bind(tables_ready_);
 }
 
-// At a retrace the boards copy, the loader says whether tables are switched, and the shading processor switches them.
+// At a retrace the loader says whether tables are switched, the shading processor switches them, and the boards copy.
+// The last board's line reaches the screen while it is announced: what the line reads has advanced before the boards.
 void Imogene::bind_display() {
   const std::size_t boards = board_modules_.size();
+  video_timing_->sync[0].bind(table_loader_->sync);
+  video_timing_->sync[1].bind(shading_module_->sync);
   for (std::size_t k = 0; k < boards; ++k) {
-    video_timing_->sync[k].bind(board_modules_[k]->sync);
+    video_timing_->sync[k + 2].bind(board_modules_[k]->sync);
     board_modules_[k]->out.bind(decision_module_->in[k]);
   }
-  video_timing_->sync[boards].bind(table_loader_->sync);
-  video_timing_->sync[boards + 1].bind(shading_module_->sync);
   decision_module_->out.bind(shading_module_->in);
   shading_module_->out.bind(video_output_->in);
 }
@@ -340,6 +347,7 @@ void Imogene::note_shown(std::uint64_t frame, const frame::Frame& pixels, std::u
       shown_.words += computation_units_[k]->updates().back().words;
     }
   }
+  shown_.late_table_lines = table_loader_->late_lines_of_frame();
   most_pieces_ = std::max(most_pieces_, shown_.triangles.pieces + shown_.pieces_dropped);
   if (frame == 0) reset_host_links();
   const std::uint64_t frame_ps = timing_.clock.picoseconds(timing_.frame * frame);
@@ -376,6 +384,7 @@ void Imogene::run() {
 // What a report says of cycles and links is of the displayed frames.
 void Imogene::close_books() {
   end_ps_ = stream::picoseconds_now();
+  table_loader_->close(end_ps_);
   books_.animation_unit = animation_unit_->occupancy(end_ps_);
   for (const auto& unit : computation_units_) books_.computation_units.push_back(unit->occupancy(end_ps_));
   for (std::size_t i = 0; i < books_.table_loaders.size(); ++i)
@@ -417,6 +426,8 @@ void Imogene::check_identities() {
         decided.fragments_kept + decided.fragments_hidden);
   equal("shading processor", "pixels shaded = fragments kept", shader_.counters().pixels, decided.fragments_kept);
   equal("table loader", "words sent = words loaded", table_loader_->words_sent(), shading_module_->words_loaded());
+  const char* const loaders[] = {"dot product loader", "diffuse loader", "specular loader"};
+  for (std::size_t i = 0; i < books_.table_loaders.size(); ++i) books_.table_loaders[i].check(loaders[i]);
   equal("video output", "lines shown = lines of all frames", video_output_->lines_shown(),
         options_.frames * static_cast<std::uint64_t>(machine_.video.lines));
 }

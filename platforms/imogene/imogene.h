@@ -40,6 +40,7 @@ struct ShownFrame {
   std::uint64_t words = 0;
   std::uint64_t pieces_dropped = 0;  // of clipped triangles, that found no processor
   std::uint64_t words_ahead = 0;     // in use, of an update that the hosts have not finished: the picture is torn
+  std::uint64_t late_table_lines = 0;
   std::uint64_t first_pixel_ps = 0;  // since the first displayed frame's retrace began
   std::uint64_t last_pixel_ps = 0;
 };

@@ -36,6 +36,7 @@ void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
   host.check(diagnostics, file);
   object_processor.check(diagnostics, file);
   shading.check(object_processor.normal_bits, file, diagnostics);
+  loader.check(shading, file, diagnostics);
   const auto gather = [&](const auto& step) {
     try {
       step();

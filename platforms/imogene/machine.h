@@ -7,6 +7,7 @@
 #include "modules/decision_unit/parameters.h"
 #include "modules/host/parameters.h"
 #include "modules/object_processor/parameters.h"
+#include "modules/shading/loader_parameters.h"
 #include "modules/shading/parameters.h"
 #include "modules/video/parameters.h"
 #include "modules/video/timing.h"

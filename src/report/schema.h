@@ -196,6 +196,7 @@ void visit(Visitor& v, run::FrameFigures& f) {
           {"words", kCount, "in use that belong to an update which the hosts have not finished: the picture is torn"},
           f.words_ahead);
   v.derived("torn", {"", kFormula, "words_ahead > 0"}, f.words_ahead > 0);
+  v.value("late_table_lines", {"lines", kCount, "shaded from half-written tables"}, f.late_table_lines);
   v.derived_object("error", "the figures of errors[] against the reference \"ideal\"", find_error(f, "ideal"),
                    [](Visitor& e, reference::ErrorFigures& figures) { visit(e, figures); });
   v.list("errors", "distance from each exact picture", f.errors,

@@ -166,6 +166,7 @@ std::string pictures_section(const run::Result& result) {
   add("fragments, hidden ones included", f.fragments, "pixels");
   add("host operations", f.host_flops, "flop");
   add("words sent to the boards", f.words_sent, "words");
+  add("shaded from half-written tables", f.late_table_lines, "lines");
   std::string text = heading("What the picture is made of") + table.text();
   if (result.frames.size() > 1) text += sentence_line(fmt::format("Every frame is a row of {}.", kFramesCsv));
   return text;

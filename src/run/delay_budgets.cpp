@@ -2,21 +2,59 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "modules/shading/loader_budget.h"
 #include "src/run/budget.h"
 
 namespace rastertlm::run {
+namespace {
+
+const std::string kReadMoves = "shading.preset, shading.table_access_ns";
+
+void add_adders(const imogene::Machine& machine, double period, std::vector<Budget>& budgets) {
+  const object_processor::ObjectProcessorParameters& p = machine.object_processor;
+  budgets.push_back(
+      budget("adder_delay", p.adder_delay_ns(), period, "ns",
+             fmt::format("{} + {} a bit x {} bits; the pixel clock's period ({} slices of the {}-bit word would fit)",
+                         p.adder_ns, p.adder_ns_per_bit, p.slice_bits, p.slices_that_fit(period), p.word_bits),
+             "object_processor.slice_bits, object_processor.adder_ns_per_bit, video.pixel_clock_ns"));
+  // What cutting it into slices is for; where there is one slice, it is the machine's own adder again.
+  const double whole = p.adder_ns + p.adder_ns_per_bit * static_cast<double>(p.word_bits);
+  budgets.push_back(budget("adder_delay_unsliced", whole, period, "ns",
+                           fmt::format("{} + {} a bit x {} bits in one piece; the pixel clock's period", p.adder_ns,
+                                       p.adder_ns_per_bit, p.word_bits),
+                           "object_processor.word_bits, object_processor.adder_ns_per_bit, video.pixel_clock_ns",
+                           false));
+}
+
+// The slowest time that every loader leaves a memory between two stores.
+double store_period_ns(const imogene::Machine& machine) {
+  const auto period = [&](shading::TableKind kind) { return 1e9 * shading::step_seconds(machine.loader, kind, false); };
+  return std::min({period(shading::TableKind::diffuse_dot), period(shading::TableKind::diffuse),
+                   period(shading::TableKind::specular)});
+}
+
+void add_tables(const imogene::Machine& machine, double period, std::vector<Budget>& budgets) {
+  const shading::ShadingParameters& p = machine.shading;
+  const std::string path =
+      fmt::format("address register {} + access {} + set-up {}{}", p.table_address_ns, p.table_access_ns,
+                  p.table_set_up_ns, p.preset.empty() ? "" : fmt::format(" ({})", p.preset));
+  budgets.push_back(budget("table_access", p.table_read_ns(), period, "ns", path + "; the pixel clock's period",
+                           kReadMoves + ", video.pixel_clock_ns"));
+  const bool sequencer = machine.loader.kind == shading::LoaderKind::sequencer;
+  budgets.push_back(
+      budget("table_store", p.table_read_ns(), store_period_ns(machine), "ns",
+             path + (sequencer ? "; the sequencer's clock period" : "; the fastest 68000's time from store to store"),
+             kReadMoves + (sequencer ? ", loader.sequencer_clock_ns" : ", loader.diffuse.clock_mhz")));
+}
+
+}  // namespace
 
 void add_delay_budgets(const imogene::Imogene& platform, std::vector<Budget>& budgets) {
-  const imogene::Machine& machine = platform.machine();
-  const video::Timing& timing = platform.timing();
-  const double period = timing.clock.period_ns();
-  budgets.push_back(
-      budget("adder_delay", machine.object_processor.adder_delay_ns(), period, "ns",
-             fmt::format("{} + {} a bit x {} bits; the pixel clock's period ({} slices of the {}-bit word would fit)",
-                         machine.object_processor.adder_ns, machine.object_processor.adder_ns_per_bit,
-                         machine.object_processor.slice_bits, machine.object_processor.slices_that_fit(period),
-                         machine.object_processor.word_bits),
-             "object_processor.slice_bits, video.pixel_clock_ns"));
+  const double period = platform.timing().clock.period_ns();
+  add_adders(platform.machine(), period, budgets);
+  add_tables(platform.machine(), period, budgets);
 }
 
 }  // namespace rastertlm::run

@@ -81,8 +81,9 @@ void take(Bottleneck& worst, const std::string& unit, const std::string& resourc
 
 // Rates are told apart from deadlines: a late host or loader shows the old picture again, a unit behind them that is
 // late shows a wrong one.
-bool is_rate(const Budget& budget) {
-  return budget.name.starts_with("host.") || budget.name == "tables.update" || budget.name.starts_with("dot_table.");
+bool is_rate(const imogene::Machine& machine, const Budget& budget) {
+  if (budget.name == "tables.update") return !late_tables_are_shown(machine);
+  return budget.name.starts_with("host.") || budget.name.starts_with("dot_table.");
 }
 
 std::string limit_sentence(const Budget& b) {
@@ -113,7 +114,11 @@ Bottleneck find_bottleneck(Imogene& platform, const std::vector<Budget>& budgets
            utilisation);
     else if (b.name == "adder_delay")
       take(worst, "object processors", "adder delay in a pixel clock", utilisation);
-    else if (!b.fits && !is_rate(b))
+    else if (b.name == "table_access")
+      take(worst, "shading processor", "a table's access in a pixel clock", utilisation);
+    else if (b.name == "table_store")
+      take(worst, "table loader", "a table's access between two stores", utilisation);
+    else if (!b.fits && !is_rate(machine, b))
       take(worst, b.name == "processors" ? "object boards" : "object processors", b.name, utilisation);
   }
   return worst;
@@ -195,7 +200,7 @@ Answer imogene_answer(Imogene& platform, const std::vector<Budget>& budgets) {
         answer.update_rate_hz, by_host ? "host.computation_units, host.sustained_mflops" : kLoaderKeys));
   }
   for (const Budget& b : budgets)
-    if (b.applies && !b.fits && !is_rate(b)) {
+    if (b.applies && !b.fits && !is_rate(machine, b)) {
       answer.limits.push_back(limit_sentence(b));
       answer.display_works = false;
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "modules/object_processor/microprogram.h"
+#include "modules/shading/loader_budget.h"
 #include "src/run/imogene_budgets.h"
 
 namespace rastertlm::run {
@@ -113,6 +114,8 @@ std::vector<Logic> logic_figures(Imogene& platform) {
   figures.push_back({"pixel to level: latency", platform.pixel_latency().count(), "pixel clocks"});
   for (const shading::LogicSize& size : platform.shader().logic())
     figures.push_back({"shading: " + size.name, size.instances, fmt::format("of {} bits", size.bits)});
+  for (const shading::LoaderLogic& logic_of_loader : shading::loader_logic(machine.shading, machine.loader))
+    figures.push_back({"tables: " + logic_of_loader.name, logic_of_loader.count, logic_of_loader.unit});
   return figures;
 }
 

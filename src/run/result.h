@@ -26,8 +26,8 @@ struct Answer {
   bool sustained = false;
   double headroom = 0.0;  // rate that the bottleneck allows / required rate - 1
   Bottleneck bottleneck;
-  std::uint64_t latency_frames = 0;       // from the start of an animation frame to its picture's first line
-  double latency_first_pixel_us = 0.0;    // from the same to its first pixel, and to its last
+  std::uint64_t latency_frames = 0;     // from the start of an animation frame to its picture's first line
+  double latency_first_pixel_us = 0.0;  // from the same to its first pixel, and to its last
   double latency_last_pixel_us = 0.0;
   std::uint64_t initial_load_frames = 0;  // video frames before the first picture
   double initial_load_us = 0.0;           // until the last unit has finished the first frame
@@ -118,7 +118,8 @@ struct FrameFigures {
   std::uint64_t fragments = 0;
   std::uint64_t host_flops = 0;  // all computation units; 0 where nothing was computed for this frame
   std::uint64_t words_sent = 0;
-  std::uint64_t words_ahead = 0;  // in use, of an update that the hosts have not finished: the picture is torn
+  std::uint64_t words_ahead = 0;       // in use, of an update that the hosts have not finished: the picture is torn
+  std::uint64_t late_table_lines = 0;  // shaded from half-written tables
   std::vector<reference::ErrorFigures> errors;  // empty without reference
 };
 

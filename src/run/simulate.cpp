@@ -16,6 +16,7 @@
 #include "src/run/imogene_budgets.h"
 #include "src/run/imogene_figures.h"
 #include "src/run/inputs.h"
+#include "src/run/table_budgets.h"
 
 namespace rastertlm::run {
 namespace {
@@ -74,10 +75,11 @@ FrameFigures figures_of(const imogene::ShownFrame& shown, const frame::Frame& pi
   f.host_flops = shown.flops;
   f.words_sent = shown.words;
   f.words_ahead = shown.words_ahead;
+  f.late_table_lines = shown.late_table_lines;
   return f;
 }
 
-void add_warnings(const imogene::Imogene& platform, const shading::DeferredShader& shader, Result& result) {
+void add_warnings(imogene::Imogene& platform, const shading::DeferredShader& shader, Result& result) {
   result.warnings = shader.warnings();
   for (const FrameFigures& frame : result.frames)
     if (frame.covered_pixels == 0) {
@@ -98,6 +100,8 @@ void add_warnings(const imogene::Imogene& platform, const shading::DeferredShade
   if (platform.slots().dropped > 0)
     result.warnings.push_back(std::to_string(platform.slots().dropped) +
                               " objects (triangles) found no processor and are missing from the picture");
+  if (const std::string late = late_tables_warning(platform, result.frames); !late.empty())
+    result.warnings.push_back(late);
   if (shader.counters().short_normals > 0)
     result.warnings.push_back(std::to_string(shader.counters().short_normals) +
                               " pixels had a normal too short for the normaliser and are darker than they should be");

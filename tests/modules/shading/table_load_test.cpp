@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "modules/shading/deferred_shader.h"
-#include "modules/shading/loader_budget.h"
 
 namespace rastertlm::shading {
 namespace {
@@ -44,6 +43,13 @@ TEST(TableLoad, TakesTheStepsOfThePaper) {
   EXPECT_EQ((steps[{TableKind::specular, 0, 0}]), 20480U);  // 16 x (1279 moves + 1)
 }
 
+// Writes what it is given into a bank.
+WordSink into(TableBank& bank) {
+  return [&bank](const TableId& table, std::uint32_t first, std::span<const std::uint32_t> words) {
+    for (std::size_t i = 0; i < words.size(); ++i) bank.write(table, first + static_cast<std::uint32_t>(i), words[i]);
+  };
+}
+
 TEST(TableLoad, StoppingAnywhereChangesNothing) {
   ShadingParameters parameters;
   parameters.materials = 3;
@@ -52,8 +58,9 @@ TEST(TableLoad, StoppingAnywhereChangesNothing) {
   const LoadProgram program = shader.program(LoadRecord());
   std::uint64_t total = 0;
   for (const TableJob& job : program.jobs) total += steps_of(job, 2);
+  constexpr StepCost kSecondAStep{1.0, 1.0};
   TableBank stepped(parameters);
-  TableLoad one_by_one(program.jobs, 2);
+  TableLoad one_by_one(program.jobs, 2, kSecondAStep);
   std::uint64_t steps = 0;
   for (; !one_by_one.done(); ++steps) {
     const LoadStep step = one_by_one.step();
@@ -65,13 +72,39 @@ TEST(TableLoad, StoppingAnywhereChangesNothing) {
   EXPECT_TRUE(same_words(stepped, shader.front()));
 
   TableBank chunked(parameters);
-  LoadRecord record;
-  TableLoad load(program.jobs, 2);
-  for (std::mt19937 random(1); !load.done();) load.advance(1 + random() % 3000, chunked, record);
-  EXPECT_EQ(load.steps_done(), total);
+  TableLoad load(program.jobs, 2, kSecondAStep);
+  std::uint64_t until = 0;
+  for (std::mt19937 random(1); !load.done();) {
+    until += 1 + random() % 3000;
+    load.advance_to(static_cast<double>(until), into(chunked));
+    ASSERT_EQ(load.steps_done(), std::min(until, total));
+  }
   DeferredShader::write_registers(program, chunked);
   EXPECT_TRUE(same_words(chunked, shader.front()));
-  EXPECT_TRUE(shader.program(record).jobs.empty());
+}
+
+// A store of 12 cycles and an up of 8 at 12.5 MHz: a step is done when the times of all before it and its own have
+// passed, and not a picosecond sooner.
+TEST(TableLoad, DoesWhatEndsInTheTimeGivenAndNoMore) {
+  ShadingParameters parameters;
+  parameters.materials = 1;
+  const DeferredShader shader = example(parameters);
+  LoadProgram program = shader.program(LoadRecord());
+  std::erase_if(program.jobs, [](const TableJob& job) { return job.table.kind != TableKind::specular; });
+  ASSERT_EQ(program.jobs.size(), 1U);
+  constexpr StepCost kCost{0.96e-6, 0.64e-6};
+  std::vector<std::uint64_t> ends_ps{0};  // of the steps, one after the other
+  for (TableLoad load(program.jobs, 1, kCost); !load.done();)
+    ends_ps.push_back(ends_ps.back() + (load.step().is_up ? 640'000U : 960'000U));
+  ASSERT_EQ(ends_ps.size(), 1U + 1280);
+  for (const std::size_t step : {1U, 2U, 3U, 600U, 1279U, 1280U}) {
+    TableBank bank(parameters);
+    TableLoad load(program.jobs, 1, kCost);
+    load.advance_to(static_cast<double>(ends_ps[step] - 1000) * 1e-12, into(bank));
+    EXPECT_EQ(load.steps_done(), step - 1);
+    load.advance_to(static_cast<double>(ends_ps[step]) * 1e-12, into(bank));
+    EXPECT_EQ(load.steps_done(), step);
+  }
 }
 
 TEST(TableLoad, AHalfWrittenTableHoldsOldWordsBehindTheNewOnes) {
@@ -81,15 +114,25 @@ TEST(TableLoad, AHalfWrittenTableHoldsOldWordsBehindTheNewOnes) {
   const TableBank old = shader.front();
   shader.set_light(0, {{1, 0, 0}, {0.8, 0, 0.6}, {1, 1, 1}});
   const LoadProgram program = shader.program(shader.front_record());
-  TableLoad load(program.jobs, 1);
-  load.advance(1000, shader.front(), shader.front_record());
+  TableLoad load(program.jobs, 1, {1.0, 1.0});
+  load.advance_to(1000.5, into(shader.front()));
   const auto& x = shader.front().lights[0].diffuse.products[0];
   EXPECT_EQ(x[999], 999U);  // n * 1
   EXPECT_EQ(x[1000], old.lights[0].diffuse.products[0][1000]);
-  EXPECT_FALSE(shader.front_record().holds(program.jobs[0]));
-  load.advance(1048, shader.front(), shader.front_record());
+  load.advance_to(2048.0, into(shader.front()));
   EXPECT_EQ(x[2047], 2047U);
-  EXPECT_TRUE(shader.front_record().holds(program.jobs[0]));
+}
+
+TEST(LoadRecord, HoldsWhatWasMarkedUntilItIsForgotten) {
+  const ShadingParameters parameters;
+  const DeferredShader shader = example(parameters);
+  const LoadProgram program = shader.program(LoadRecord());
+  LoadRecord record;
+  for (const TableJob& job : program.jobs) record.mark(job);
+  EXPECT_TRUE(shader.program(record).jobs.empty());
+  record.forget(program.jobs[3]);
+  ASSERT_EQ(shader.program(record).jobs.size(), 1U);
+  EXPECT_EQ(shader.program(record).jobs[0].ordinal, program.jobs[3].ordinal);
 }
 
 TEST(TableLoad, LoadsOnlyWhatChanged) {
@@ -126,58 +169,18 @@ TEST(TableBank, AddressesAreOneToOne) {
   }
   for (std::uint32_t address = 0; address < bank.words(); ++address)
     ASSERT_EQ(bank.read(address), address % 29) << address;
+  // A burst across every border between tables is the same as words one by one.
+  std::vector<std::uint32_t> burst(bank.words());
+  for (std::uint32_t address = 0; address < bank.words(); ++address) burst[address] = (7 * address) % 31;
+  TableBank by_burst(parameters);
+  by_burst.write(0, std::span<const std::uint32_t>(burst).first(11));
+  by_burst.write(11, std::span<const std::uint32_t>(burst).subspan(11));
+  for (std::uint32_t address = 0; address < bank.words(); ++address) bank.write(address, burst[address]);
+  EXPECT_TRUE(same_words(by_burst, bank));
   EXPECT_THROW(static_cast<void>(bank.decode(bank.words())), std::out_of_range);
   EXPECT_THROW(static_cast<void>(bank.address({TableKind::diffuse, 2, 0}, 0)), std::out_of_range);
   EXPECT_THROW(static_cast<void>(bank.address({TableKind::specular, 0, 3}, 0)), std::out_of_range);
   EXPECT_THROW(static_cast<void>(bank.address({TableKind::diffuse_dot, 0, 0}, 32)), std::out_of_range);
-}
-
-TEST(LoaderBudget, GivesTheFiguresOfThePaper) {
-  std::map<std::string, double> used;
-  for (const LoadBudget& budget : load_budgets(ShadingParameters(), LoaderParameters(), 16))
-    used[budget.name] = budget.used;
-  EXPECT_EQ(used.at("dot_table.words"), 6144);
-  EXPECT_NEAR(used.at("dot_table.load_sequencer"), 368.64, 1e-6);  // 004: "about 370 us"
-  EXPECT_NEAR(used.at("dot_table.load_68000"), 19968.0, 1e-6);
-  EXPECT_EQ(used.at("diffuse.words"), 16384);
-  EXPECT_NEAR(used.at("diffuse.load_sequencer"), 983.04, 1e-6);
-  EXPECT_NEAR(used.at("diffuse.load_68000"), 18944.0, 1e-6);
-  EXPECT_NEAR(used.at("diffuse9.load_sequencer"), 491.52, 1e-6);
-  EXPECT_EQ(used.at("specular.words"), 16384);
-  EXPECT_NEAR(used.at("specular.load_sequencer"), 1228.8, 1e-6);
-  EXPECT_NEAR(used.at("specular.load_68000"), 229376 / 12.5, 1e-6);  // 18.35 ms: 004's "less than 19 ms"
-  EXPECT_EQ(used.at("path_rom.moves"), 1279);
-}
-
-TEST(LoaderBudget, ClosedFormsEqualTheStepsOfTheJobs) {
-  for (const LoaderKind kind : {LoaderKind::mc68000, LoaderKind::sequencer}) {
-    ShadingParameters parameters;
-    parameters.arithmetic = Arithmetic::literal;  // its paths end with their last store, as the closed form says of all
-    LoaderParameters loader;
-    loader.kind = kind;
-    const DeferredShader shader = example(parameters);
-    const LoadProgram program = shader.program(LoadRecord());
-    std::map<LoaderId, double> job_time;
-    std::map<LoaderId, double> step_time;
-    for (const TableJob& job : program.jobs) job_time[loader_of(job)] += 1e6 * job_seconds(loader, job);
-    for (TableLoad load(program.jobs, loader.argument_cycles); !load.done();) {
-      const LoadStep step = load.step();
-      const TableJob& job = program.jobs[step.job];
-      step_time[loader_of(job)] += 1e6 * step_seconds(loader, job.table.kind, step.is_up);
-    }
-    const std::string suffix = kind == LoaderKind::mc68000 ? "load_68000" : "load_sequencer";
-    for (const LoadBudget& budget : load_budgets(parameters, loader, 16)) {
-      if (budget.name != "dot_table." + suffix && budget.name != "diffuse." + suffix &&
-          budget.name != "specular." + suffix)
-        continue;
-      const LoaderId id{budget.name[0] == 's'   ? TableKind::specular
-                        : budget.name[1] == 'o' ? TableKind::diffuse_dot
-                                                : TableKind::diffuse,
-                        0, 0};
-      EXPECT_NEAR(job_time.at(id), budget.used, 1e-6) << budget.name;
-      EXPECT_NEAR(step_time.at(id), budget.used, 1e-6) << budget.name;
-    }
-  }
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ TEST_F(AnswerTest, OneFrameSaysWhatManySay) {
 TEST_F(AnswerTest, OneFrameSaysWhatManySayOfALateLoader) {
   const std::string scene =
       scene_of(kSphere, std::string(kCamera) + "[[camera.animation]]\ntype = \"orbit\"\ndeg_per_frame = 9.0\n");
-  for (const char* cycles : {"loader.dot_cycles=20.0", "loader.dot_cycles=27.0", "loader.dot_cycles=90.0"}) {
+  for (const char* cycles : {"loader.dot.cycles=20.0", "loader.dot.cycles=27.0", "loader.dot.cycles=90.0"}) {
     const std::vector<std::string> set{"video.columns=64", "video.lines=64", cycles};
     const Simulated one = show(scene, {.set = set, .frames = 1});
     const Simulated many = show(scene, {.set = set, .frames = kMany});

@@ -131,7 +131,7 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
         {"shading.level_bits", {.change = {"shading.level_bits=7"}}},
         {"shading.specular_tables", {.change = {"shading.specular_tables=3"}}},
         {"shading.exponents", {.change = {"shading.exponents=[5, 20, 50]"}}},
-        {"loader.materials", {.set = {"loader.diffuse_cycles=37.0"}, .change = {"loader.materials=all"}}},
+        {"loader.materials", {.set = {"loader.diffuse.cycles=37.0"}, .change = {"loader.materials=all"}}},
         {"loader.sequencer_clock_ns", {.set = sequencer, .change = {"loader.sequencer_clock_ns=50.0"}}},
     };
   }

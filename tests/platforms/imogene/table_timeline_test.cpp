@@ -19,7 +19,7 @@ class LateTablesTest : public SimulationTest {
 };
 
 TEST_F(LateTablesTest, KeepTheOldPictureAndItsTables) {
-  const Simulated simulated = turned({"loader.dot_clock_mhz=3.0"});
+  const Simulated simulated = turned({"loader.dot.clock_mhz=3.0"});
   constexpr std::uint64_t kLate = 3;
   EXPECT_NEAR(simulated.result.answer.update_rate_hz, 1e12 / (333'333 * 60'000.0) / kLate, 1e-6);
   EXPECT_FALSE(simulated.result.answer.sustained);
@@ -56,7 +56,7 @@ TEST_F(LateTablesTest, OfOneBankAreLoadedInTheRetraceOrRefused) {
 // 4.7 ms; dot products 20.0 ms.
 TEST_F(LateTablesTest, FirstLoadIsOfTheMaterialsThatAreUsedOrOfAllOfTheMachine) {
   const std::string scene = scene_of(std::string(kSphere) + kSpin);
-  const std::vector<std::string> slow{"video.columns=64", "video.lines=64", "loader.diffuse_clock_mhz=4.0",
+  const std::vector<std::string> slow{"video.columns=64", "video.lines=64", "loader.diffuse.clock_mhz=4.0",
                                       "host.link_mbit_per_s=1000.0"};  // the meshes are there at once
   const Simulated used = show(scene, {.set = slow, .frames = kFrames});
   std::vector<std::string> slow_all = slow;

@@ -203,7 +203,7 @@ TEST_F(TimingTest, ConservesCyclesWordsAndFragments) {
        scene_of(std::string(kSphere) + kSpin),
        {"host.computation_units=2", "host.processors_per_unit=512"}},
       {"moving camera", scene_of(kSphere, moving_camera), {}},
-      {"late tables", scene_of(kSphere, moving_camera), {"loader.dot_clock_mhz=3.0"}},
+      {"late tables", scene_of(kSphere, moving_camera), {"loader.dot.clock_mhz=3.0"}},
       {"sequencer", scene_of(kSphere, moving_camera), {"loader.kind=sequencer", "loader.when=retrace"}},
       {"pipeline",
        scene_of(std::string(kSphere) + kSpin),
