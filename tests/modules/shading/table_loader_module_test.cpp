@@ -23,6 +23,8 @@ constexpr std::uint64_t kMicrosecond = 1'000'000;
 constexpr std::uint64_t kMillisecond = 1000 * kMicrosecond;
 // N.L and N.H; a colour each; one table.
 constexpr std::array<std::uint64_t, 3> kLoaders{2, 3, 1};
+// From the start of a line to its first pixel's reading of the tables.
+constexpr std::array<std::uint64_t, 3> kReachedPs{7 * kMicrosecond, 7'180'000, 7'180'000};
 constexpr std::uint64_t kRetracePs = 600 * kMicrosecond;  // 004, section 5.3.6
 
 LightArguments light(double x, double y, double z) {
@@ -76,6 +78,14 @@ class Surroundings : public sc_core::sc_module {
     if (copy) swapped.notify(sc_core::SC_ZERO_TIME);
     return payload.switch_tables;
   }
+  // A line that starts `delay_ps` from now, announced before it does.
+  void line(std::uint64_t delay_ps) {
+    stream::SyncPayload payload;
+    payload.kind = stream::SyncPayload::Kind::line;
+    sc_core::sc_time delay = stream::to_time(delay_ps);
+    to_loader->b_transport(payload, delay);
+    to_shading->b_transport(payload, delay);
+  }
 
  private:
   void receive(stream::RgbPayload&, sc_core::sc_time&) {}
@@ -110,12 +120,14 @@ struct Machine {
                  ? Clock::from_period_ns("loader", p.sequencer_clock_ns)
                  : Clock::from_frequency_hz("loader", static_cast<std::uint64_t>(mhz * 1e6));
     };
-    return {{"dot", 11, clock(p.dot_clock_mhz)},
-            {"diffuse", 8, clock(p.diffuse_clock_mhz)},
-            {"specular", 8, clock(p.specular_clock_mhz)}};
+    return {{"dot", 11, clock(p.dot.clock_mhz)},
+            {"diffuse", 8, clock(p.diffuse.clock_mhz)},
+            {"specular", 8, clock(p.specular.clock_mhz)}};
   }
-  TableLoaderModule::Engine engine(std::size_t i) {
-    return {&links[i], kLoaders[i], stream::OccupancyMeter(links[i].clock())};
+  TableLoaderModule::Engine engine(std::size_t i, const LoaderParameters& p) {
+    const std::int64_t units[] = {p.dot.units, p.diffuse.units, p.specular.units};
+    return {&links[i], kLoaders[i] * static_cast<std::uint64_t>(units[i]), stream::OccupancyMeter(links[i].clock()),
+            kReachedPs[i]};
   }
 
   explicit Machine(const LoaderParameters& parameters, std::vector<std::size_t> materials = {0})
@@ -123,7 +135,7 @@ struct Machine {
         shading("deferred_shading", shader, 16, Clock::from_period_ns("pixel clock", 60.0), Cycles(10), rgb_link),
         links(engine_links(parameters)),
         loader("table_loader", shader, parameters, std::move(materials), kRetracePs, around.swapped,
-               {engine(0), engine(1), engine(2)}) {
+               {engine(0, parameters), engine(1, parameters), engine(2, parameters)}) {
     set_materials(shader);
     around.lights.bind(loader.lights);
     around.to_loader.bind(loader.sync);
@@ -266,7 +278,9 @@ TEST(TableLoaderModule, TheSequencerLoadsWithinTheRetrace) {
     m.around.retrace(false);
     expect_tables(m.shader.front(), kFirst);
     m.around.retrace(true);  // 40 ms
+    m.around.line(kRetracePs);
     expect_tables(m.shader.front(), kSecond);
+    EXPECT_EQ(m.loader.late_lines(), 0U);
     sc_core::wait(5, sc_core::SC_MS);
     m.around.announce(false, kSecond);
   });
@@ -295,8 +309,160 @@ TEST(TableLoaderModule, RefusesALoadThatDoesNotFitTheRetrace) {
     EXPECT_EQ(error.diagnostics()[0].key, "loader.when");
     EXPECT_EQ(error.diagnostics()[0].message,
               "the tables that change with every frame take 19968 us to load, and the vertical retrace has 600 us; a "
-              "faster loader, or loader.when = \"frame\", would do");
+              "faster loader, loader.when = \"frame\" or loader.on_overrun = \"show\" would do");
   }
+}
+
+// Two 68000s of each dot-product unit take half of every table: 3 x 1024 entries of 26 cycles.
+TEST(TableLoaderModule, SharedWorkTakesTheTimeOfTheLargestShare) {
+  LoaderParameters parameters = loader(LoaderKind::mc68000, LoadTime::frame);
+  parameters.dot.units = 2;
+  Machine m(parameters);
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(30, sc_core::SC_MS);
+    m.around.retrace(true);
+    expect_tables(m.shader.front(), kFirst);
+    m.around.announce(true, kSecond);
+    sc_core::wait(20, sc_core::SC_MS);
+    EXPECT_TRUE(m.around.retrace(true));  // 50 ms
+    expect_tables(m.shader.front(), kSecond);
+  });
+  stream::simulate();
+  EXPECT_THAT(m.edges.list(),
+              ElementsAre(Edge{9984 * kMicrosecond, true}, Edge{30 * kMillisecond, false},
+                          Edge{30 * kMillisecond + 9984 * kMicrosecond, true}, Edge{50 * kMillisecond, false}));
+  EXPECT_EQ(m.loader.occupancy(0, 60 * kMillisecond).busy, 3072U * 26);
+  // Both banks have their N.L and N.H tables, two loaders each: a word of the link is four entries.
+  EXPECT_EQ(m.links[0].words(), 2U * 6144 / 2);
+  EXPECT_EQ(m.loader.words_sent(), m.shading.words_loaded());
+}
+
+// A host that copies at every retrace: the tables are switched at the first at which their own load has ended. Of
+// lights that came meanwhile the last are loaded next.
+TEST(TableLoaderModule, ALateBankIsSwitchedWhenItsOwnLoadHasEnded) {
+  LoaderParameters parameters = loader(LoaderKind::mc68000, LoadTime::frame);
+  parameters.dot.cycles = 52.0;  // 39.936 ms
+  Machine m(parameters);
+  const LightArguments third = light(0.9, 0.1, 0.3);
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(50, sc_core::SC_MS);
+    EXPECT_TRUE(m.around.retrace(true));  // 50 ms
+    m.around.announce(true, kSecond);     // until 89.936 ms
+    sc_core::wait(20, sc_core::SC_MS);
+    EXPECT_FALSE(m.around.retrace(true));  // 70 ms
+    expect_tables(m.shader.front(), kFirst);
+    m.around.announce(true, third);
+    sc_core::wait(1, sc_core::SC_MS);
+    m.around.announce(false, third);  // changes nothing of the lights before, which still wait
+    sc_core::wait(19, sc_core::SC_MS);
+    EXPECT_TRUE(m.around.retrace(true));  // 90 ms
+    expect_tables(m.shader.front(), kSecond);
+    sc_core::wait(20, sc_core::SC_MS);
+    EXPECT_FALSE(m.around.retrace(true));  // 110 ms
+    sc_core::wait(19'936, sc_core::SC_US);
+    EXPECT_TRUE(m.around.retrace(true));  // 129.936 ms: the load has ended at this instant
+    expect_tables(m.shader.front(), third);
+    sc_core::wait(20, sc_core::SC_MS);
+    EXPECT_FALSE(m.around.retrace(true));  // nothing new
+    expect_tables(m.shader.front(), third);
+  });
+  stream::simulate();
+  EXPECT_EQ(m.loader.words_sent(), m.shading.words_loaded());
+  EXPECT_EQ(m.loader.late_lines(), 0U);  // what is shown is never half written
+}
+
+// The words of the dot-product tables that a loader of one entry in 3.25 us has stored since the light was kFirst.
+void expect_half_written(const TableBank& bank, std::size_t entries) {
+  DeferredShader before(shading_parameters(), 12, 1);
+  before.set_light(0, kFirst);
+  before.load();
+  DeferredShader after(shading_parameters(), 12, 1);
+  after.set_light(0, kSecond);
+  after.load();
+  const LightTables& is = bank.lights[0];
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < 3 * 2048; ++i) {
+    const LightTables& expected = (i < entries ? after : before).front().lights[0];
+    different += is.diffuse.products[i / 2048][i % 2048] != expected.diffuse.products[i / 2048][i % 2048] ? 1U : 0U;
+    different += is.specular.products[i / 2048][i % 2048] != expected.specular.products[i / 2048][i % 2048] ? 1U : 0U;
+  }
+  EXPECT_EQ(different, 0U) << entries;
+}
+
+// One bank, 6144 entries x 3.25 us = 19.968 ms from the retrace on: a line is shaded from what is written when its
+// first pixel reads it, 7 us after the line's start; the entry that is stored then is in, the next one is not.
+TEST(TableLoaderModule, ALateLoadOfOneBankShowsWhatIsWritten) {
+  LoaderParameters parameters = loader(LoaderKind::mc68000, LoadTime::retrace);
+  parameters.on_overrun = Overrun::show;
+  Machine m(parameters);
+  const auto reads_at = [&](std::uint64_t picoseconds) { m.around.line(picoseconds - kReachedPs[0]); };
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(20, sc_core::SC_MS);
+    m.around.retrace(true);
+    m.around.line(kRetracePs);  // nothing is loaded: not late
+    m.around.announce(true, kSecond);
+    sc_core::wait(20, sc_core::SC_MS);
+    m.around.retrace(true);  // 40 ms
+    expect_half_written(m.shader.front(), 0);
+    EXPECT_EQ(m.shader.front().read({TableKind::signs, 0, 0}, 0), 0b001'001U);  // registers change at once
+    EXPECT_EQ(m.loader.late_lines(), 0U);
+    reads_at(3'250'000ULL * 1000 - 1000);
+    expect_half_written(m.shader.front(), 999);
+    reads_at(3'250'000ULL * 1000);
+    expect_half_written(m.shader.front(), 1000);
+    reads_at(3'250'000ULL * 6144 - 1000);
+    expect_half_written(m.shader.front(), 6143);
+    EXPECT_EQ(m.loader.late_lines_of_frame(), 3U);
+    reads_at(3'250'000ULL * 6144);
+    expect_tables(m.shader.front(), kSecond);
+    EXPECT_EQ(m.loader.late_lines_of_frame(), 3U);
+    sc_core::wait(20, sc_core::SC_MS);
+    m.around.announce(false, kSecond);
+    m.around.retrace(true);
+    EXPECT_EQ(m.loader.late_lines_of_frame(), 0U);
+    EXPECT_EQ(m.loader.late_lines(), 3U);
+  });
+  stream::simulate();
+  EXPECT_EQ(m.loader.words_sent(), m.shading.words_loaded());
+  EXPECT_EQ(m.loader.occupancy(0, 70 * kMillisecond).busy, 6144U * 26);
+  m.loader.occupancy(0, 70 * kMillisecond).check("loader");
+}
+
+// A load of 39.936 ms that starts at one retrace goes on through the next, whether it copies or not; the next load
+// starts at the first retrace after its end.
+TEST(TableLoaderModule, ALoadOfOneBankThatOutlastsTheFrameGoesOn) {
+  LoaderParameters parameters = loader(LoaderKind::mc68000, LoadTime::retrace);
+  parameters.on_overrun = Overrun::show;
+  parameters.dot.cycles = 52.0;
+  Machine m(parameters);
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(40, sc_core::SC_MS);
+    m.around.retrace(true);
+    sc_core::wait(1, sc_core::SC_MS);
+    m.around.announce(true, kSecond);
+    sc_core::wait(19, sc_core::SC_MS);
+    m.around.retrace(true);  // 60 ms: starts
+    m.around.line(kRetracePs);
+    m.around.announce(true, kFirst);
+    sc_core::wait(20, sc_core::SC_MS);
+    m.around.retrace(true);  // 80 ms: goes on
+    m.around.line(6500 * kMicrosecond - kReachedPs[0]);
+    expect_half_written(m.shader.front(), 4076);  // 26.5 ms of 6.5 us an entry: 4076.9
+    sc_core::wait(20, sc_core::SC_MS);
+    expect_tables(m.shader.front(), kSecond);
+    m.around.retrace(true);  // 100 ms: the next one starts
+    EXPECT_EQ(m.shader.front().read({TableKind::signs, 0, 0}, 0), 0b010'010U);
+    m.loader.close((100 + 13) * kMillisecond);  // 2000 entries later, of N.L and of N.H
+  });
+  stream::simulate();
+  EXPECT_EQ(m.loader.words_sent(), m.shading.words_loaded());
+  EXPECT_THAT(m.edges.list(), ElementsAre(Edge{39'936 * kMicrosecond, true}, Edge{40 * kMillisecond, false},
+                                          Edge{41 * kMillisecond, true}, Edge{60 * kMillisecond, false},
+                                          Edge{99'936 * kMicrosecond, true}, Edge{100 * kMillisecond, false}));
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ inline run::FrameFigures example_frame(std::uint64_t frame) {
   f.fragments = 61'234;
   f.host_flops = 123'456;
   f.words_sent = 19'712;
+  f.late_table_lines = 11;
   f.errors = {example_error("ideal", 9), example_error("snapped", 8), example_error("true", 17)};
   return f;
 }
