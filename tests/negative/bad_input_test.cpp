@@ -76,6 +76,46 @@ TEST_F(BadInputTest, ValueOutOfRange) {
   refused({"machine.toml:4: video.refresh_hz: ", "-50"});
 }
 
+TEST_F(BadInputTest, LoopsAndMemoriesThatNobodyKnows) {
+  write("machine.toml",
+        std::string(kSmallMachine) + "[loader]\nkind = \"mc68000\"\n[loader.dot]\npreset = \"add_l_mov_w\"\n");
+  refused({"machine.toml:", "loader.dot.preset: unknown preset 'add_l_mov_w'", "'add_l_move_l', 'add_l_move_w'",
+           "nearest: 'add_l_move_w'"});
+  write("machine.toml", kSmallMachine);
+  refused({"--set: loader.specular.preset: unknown preset 'add_l_move_w'", "'move_l_add_l_12_mhz'"},
+          {"--set", "loader.specular.preset=add_l_move_w"});
+  refused({"shading.preset: unknown preset 'cy7c162_30'", "'cy7c162_25', 'cy7c162_35'"},
+          {"--set", "shading.preset=cy7c162_30"});
+}
+
+TEST_F(BadInputTest, RatesOfLoadersThatAreZeroOrNegative) {
+  for (const char* key : {"loader.dot.clock_mhz", "loader.dot.body_cycles", "loader.diffuse.clock_mhz",
+                          "loader.specular.clock_mhz", "loader.specular.right_cycles", "loader.specular.up_cycles"})
+    for (const char* value : {"0", "0.0", "-1.0", "nan"}) refused({key}, {"--set", std::string(key) + '=' + value});
+  for (const char* setting : {"loader.dot.loop_cycles=-1.0", "loader.diffuse.cycles=-0.5", "loader.dot.unroll=-1",
+                              "loader.dot.units=0", "loader.specular.units=-2", "shading.table_access_ns=-1.0"})
+    refused({std::string(setting).substr(0, std::string(setting).find('='))}, {"--set", setting});
+  refused({"loader.sequencer_clock_ns"}, {"--set", "loader.kind=sequencer", "--set", "loader.sequencer_clock_ns=0"});
+}
+
+TEST_F(BadInputTest, LoadersThatHaveNothingToShare) {
+  write("machine.toml", std::string(kSmallMachine) + "[loader.dot]\nunits = 2049\n[loader.diffuse]\nunits = 17\n");
+  refused({"loader.dot.units: 2049 loaders cannot share 2048 entries",
+           "loader.diffuse.units: 17 loaders cannot share 16 "
+           "materials"});
+}
+
+TEST_F(BadInputTest, KeysOfALoaderThatTheMachineDoesNotHave) {
+  write("machine.toml", std::string(kSmallMachine) + "[loader]\nwhen = \"frame\"\non_overrun = \"show\"\n");
+  refused({"loader.on_overrun: does not apply", "loader.when", "'retrace'", "'frame'"});
+  write("machine.toml",
+        std::string(kSmallMachine) + "[loader]\nkind = \"sequencer\"\n[loader.dot]\npreset = \"add_l_move_w\"\n");
+  refused({"loader.dot.preset: does not apply", "loader.kind", "'mc68000'", "'sequencer'"});
+  write("machine.toml", kSmallMachine);
+  refused({"loader.on_overrun", "'refuse', 'show'"},
+          {"--set", "loader.when=retrace", "--set", "loader.on_overrun=draw"});
+}
+
 TEST_F(BadInputTest, ColumnsAndLines) {
   for (const char* key : {"video.columns", "video.lines"})
     for (const char* value : {"0", "-1", "16385", "99999999999999999999"})
