@@ -48,6 +48,7 @@ class Surroundings : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<Surroundings, stream::kNoBusWidth, stream::FragmentProtocol> fragments;
   tlm_utils::simple_target_socket<Surroundings, stream::kNoBusWidth, stream::RgbProtocol> rgb;
   sc_core::sc_event swapped;
+  const sc_core::sc_signal<bool>* tables_ready = nullptr;
 
   explicit Surroundings(const sc_core::sc_module_name& name)
       : sc_module(name),
@@ -66,16 +67,18 @@ class Surroundings : public sc_core::sc_module {
     sc_core::sc_time delay;
     lights->b_transport(payload, delay);
   }
-  // As the video timing: the loader first, then the shading processor; then whoever waits for a swap. Whether the
-  // tables were switched.
-  bool retrace(bool copy) {
+  // As the video timing, where loading RAMs are copied: the loader first, then the shading processor; then whoever
+  // waits for a swap, if all are ready. Whether the tables were switched.
+  bool retrace(bool copy, bool hosts_ready = true) {
+    sc_core::wait(sc_core::SC_ZERO_TIME);  // who finishes at this very instant is in time
     stream::SyncPayload payload;
     payload.kind = stream::SyncPayload::Kind::retrace;
     payload.copy = copy;
+    payload.swap = copy && hosts_ready && tables_ready->read();
     sc_core::sc_time delay;
     to_loader->b_transport(payload, delay);
     to_shading->b_transport(payload, delay);
-    if (copy) swapped.notify(sc_core::SC_ZERO_TIME);
+    if (payload.swap) swapped.notify(sc_core::SC_ZERO_TIME);
     return payload.switch_tables;
   }
   // A line that starts `delay_ps` from now, announced before it does.
@@ -144,6 +147,7 @@ struct Machine {
     shading.out.bind(around.rgb);
     loader.bus.bind(shading.bus);
     loader.ready.bind(ready);
+    around.tables_ready = &ready;
   }
 };
 
@@ -371,6 +375,54 @@ TEST(TableLoaderModule, ALateBankIsSwitchedWhenItsOwnLoadHasEnded) {
   stream::simulate();
   EXPECT_EQ(m.loader.words_sent(), m.shading.words_loaded());
   EXPECT_EQ(m.loader.late_lines(), 0U);  // what is shown is never half written
+}
+
+// Hosts that are late where loading RAMs are copied at every retrace: the tables do not wait for them.
+TEST(TableLoaderModule, TablesAreSwitchedAtARetraceThatCopiesForLateHosts) {
+  Machine m(loader(LoaderKind::mc68000, LoadTime::frame));
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(30, sc_core::SC_MS);
+    m.around.retrace(true);
+    m.around.announce(true, kSecond);
+    sc_core::wait(20, sc_core::SC_MS);
+    EXPECT_TRUE(m.around.retrace(true, false));  // 50 ms
+    expect_tables(m.shader.front(), kSecond);
+    sc_core::wait(20, sc_core::SC_MS);
+    EXPECT_FALSE(m.around.retrace(true, true));
+    expect_tables(m.shader.front(), kSecond);
+  });
+  stream::simulate();
+  EXPECT_THAT(m.edges.list(), ElementsAre(Edge{19'968 * kMicrosecond, true}, Edge{30 * kMillisecond, false},
+                                          Edge{49'968 * kMicrosecond, true}, Edge{70 * kMillisecond, false}));
+}
+
+// Likewise with one bank: it is loaded once, in the first retrace that copies.
+TEST(TableLoaderModule, OneBankIsLoadedAtARetraceThatCopiesForLateHosts) {
+  Machine m(loader(LoaderKind::sequencer, LoadTime::retrace));
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    sc_core::wait(20, sc_core::SC_MS);
+    m.around.retrace(true);
+    sc_core::wait(1, sc_core::SC_MS);
+    m.around.announce(true, kSecond);
+    sc_core::wait(19, sc_core::SC_MS);
+    m.around.retrace(true, false);  // 40 ms
+    m.around.line(kRetracePs);
+    expect_tables(m.shader.front(), kSecond);
+    sc_core::wait(20, sc_core::SC_MS);
+    m.around.retrace(true, true);
+    sc_core::wait(1, sc_core::SC_MS);
+    m.around.announce(true, kFirst);
+    sc_core::wait(19, sc_core::SC_MS);
+    m.around.retrace(true, true);  // 80 ms
+  });
+  stream::simulate();
+  EXPECT_EQ(m.loader.occupancy(0, 100 * kMillisecond).busy, 2U * 6144);
+  EXPECT_EQ(m.loader.words_sent(), m.shading.words_loaded());
+  EXPECT_THAT(m.edges.list(), ElementsAre(Edge{368'640'000, true}, Edge{20 * kMillisecond, false},
+                                          Edge{21 * kMillisecond, true}, Edge{60 * kMillisecond, false},
+                                          Edge{61 * kMillisecond, true}, Edge{80 * kMillisecond, false}));
 }
 
 // The words of the dot-product tables that a loader of one entry in 3.25 us has stored since the light was kFirst.

@@ -97,8 +97,7 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
   }
 
   static Change by_instructions(const std::string& operation, const std::string& scene = "turning") {
-    return {.scene = scene, .set = {"host.cost=instructions"}, 
-            .change = {"host.instruction." + operation + "=211.0"}};
+    return {.scene = scene, .set = {"host.cost=instructions"}, .change = {"host.instruction." + operation + "=211.0"}};
   }
 
   // The machine's, where the next value in a turning scene does not do.

@@ -42,6 +42,24 @@ TEST_F(LateTablesTest, KeepTheOldPictureAndItsTables) {
   expect_exact(simulated, 5);
 }
 
+// Where loading RAMs are copied at every retrace the objects are those of a new frame at once, and the light is that of
+// the old one for as long as its tables are late.
+TEST_F(LateTablesTest, KeepTheOldLightOnNewObjectsWhereCopiesDoNotWait) {
+  const Simulated global = turned({"loader.dot.clock_mhz=3.0"});
+  const Simulated torn = turned({"loader.dot.clock_mhz=3.0", "host.swap=unconditional"});
+  constexpr std::size_t kLate = 3;
+  for (std::size_t k = 1; k < kFrames; ++k) {
+    SCOPED_TRACE(k);
+    const std::size_t whole =
+        (k + kLate - 1) / kLate * kLate;  // the frame that shows the same objects, and their light
+    if (whole >= kFrames) break;
+    EXPECT_EQ(torn.shown[k].object, global.shown[whole].object);
+    EXPECT_EQ(torn.shown[k].normal, global.shown[whole].normal);
+    EXPECT_EQ(torn.shown[k].rgb == global.shown[whole].rgb, k == whole);
+    EXPECT_EQ(torn.result.frames[k].late_table_lines, 0U);
+  }
+}
+
 // In its retrace of 615.66 us a sequencer loads 6144 entries of 60 ns, and a 68000 does not.
 TEST_F(LateTablesTest, OfOneBankAreLoadedInTheRetraceOrRefused) {
   const Simulated banks = turned({});
