@@ -64,8 +64,8 @@ void VideoTimingModule::run_guarded() {
 // 1. the retrace begins; where all is ready, loading RAMs are copied and tables switched, and the hosts may go on
 //    (where loading RAMs are copied at every retrace, they are, ready or not);
 // 2. its lines are announced with their times as delays: nothing that a line reads can change before the next retrace,
-// so the kernel need
-//    not stop at each;
+//    so the kernel need not stop at each (tables that are late are brought to the line's time by their loader, which
+//    hears of it before the boards);
 // 3. whoever runs the simulation gets a chance to look at the frame;
 // 4. time passes to the end of the frame, counted from the start of the simulation in cycles.
 void VideoTimingModule::run() {
