@@ -40,11 +40,11 @@ std::vector<TableJob> shares_of(const TableJob& job, std::int64_t units) {
 SharedLoad::SharedLoad(LoadProgram program, const LoaderParameters& parameters) : program_(std::move(program)) {
   std::map<LoaderId, Loader> by_loader;
   for (const TableJob& job : program_.jobs)
-    for (TableJob& share : shares_of(job, units_of(parameters, job.table.kind))) {
+    for (const TableJob& share : shares_of(job, units_of(parameters, job.table.kind))) {
       Loader& loader = by_loader[loader_of(share)];
       loader.engine = engine_of(share.table.kind);
       loader.seconds += job_seconds(parameters, share);
-      loader.jobs.push_back(std::move(share));
+      loader.jobs.push_back(share);
     }
   for (auto& [id, loader] : by_loader) {
     seconds_[loader.engine] = std::max(seconds_[loader.engine], loader.seconds);
