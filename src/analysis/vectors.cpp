@@ -8,6 +8,7 @@
 #include "modules/set_up/word_format.h"
 #include "platforms/imogene/imogene.h"
 #include "src/analysis/frame_recorder.h"
+#include "src/analysis/microprogram_vectors.h"
 #include "src/analysis/pixel_vectors.h"
 #include "src/analysis/table_vectors.h"
 #include "src/analysis/vector_files.h"
@@ -135,6 +136,7 @@ report::VectorsManifest write_frame(imogene::Imogene& platform, const run::Input
   manifest.scene_digest = inputs.content->scene.digest;
   manifest.frame = shown.frame;
   manifest.animation_frame = shown.animation_frame;
+  manifest.words_ahead = shown.words_ahead;
   manifest.machine = machine_of(machine, points);
   manifest.shading = shading_of(machine.shading);
   manifest.timing = timing_of(platform);
@@ -150,6 +152,7 @@ report::VectorsManifest write_frame(imogene::Imogene& platform, const run::Input
   const ProcessorCounts counts = write_processors(platform.boards(), word_bits, points, range, files);
   manifest.processors_with_object = counts.with_object;
   manifest.processors_listed = counts.listed;
+  write_microprogram(machine.object_processor.slices(), files);
   write_tables(platform.shader(), static_cast<unsigned>(machine.object_processor.normal_bits), files);
   write_decision(recorder.lines(), static_cast<std::uint32_t>(manifest.machine.background_depth), files);
   write_rgb(pixels, files);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace rastertlm::analysis {
 namespace {
 
@@ -19,8 +21,9 @@ two runs write the same bytes.
 |---|---|
 | `board<b>_processor<p>_ep<e>.hex` | loading RAM of elementary processor e: A, B, C', one word of {word_bits} bits a line |
 | `board<b>_processor<p>_material.hex` | the processor's material word (8 bits, of which the link takes {material_bits}) |
-| `parked_ep<e>.hex`, `parked_material.hex` | what every processor without files holds |
+| `parked_ep<e>.hex`, `parked_material.hex` | what a processor without an object holds |
 | `index.csv` | every word: board, processor, slot, object, ep, address, index on the bus, meaning, hexadecimal, value, unit, file |
+| `microprogram.csv` | what an elementary processor does, a row a cycle: frame start, line start, pixel; `clocks` has a bit a slice of the adder, the lowest slice at the right |
 | `light<l>_*.hex`, `ambient.hex`, `background.hex`, `*_rom*.hex` | tables of the shading processor, one word a line; `tables.csv` says what each is |
 | `decision.csv` | expected at the decision unit's output, a pixel a row in raster order |
 | `rgb.csv` | expected levels at the display, a pixel a row in raster order |
@@ -40,10 +43,17 @@ scene, from 1: an observer's mark that no wire carries.
 }
 
 std::string loading(const VectorsManifest& v) {
+  const std::string torn = v.words_ahead == 0 ? ""
+                                              : fmt::format(
+                                                    "\nThis picture is torn: {} of the words belong to an update that "
+                                                    "the hosts had not finished when the RAMs were copied. "
+                                                    "Where the old words\nand the new have different binary points, "
+                                                    "`index.csv` values the new ones by that of the old.\n",
+                                                    v.words_ahead);
   return fmt::format(
       R"(## Loading
 
-```verilog
+```systemverilog
 reg [{word_top}:0] loading [0:2];                     // A, B, C' of one elementary processor
 reg [7:0] material [0:0];
 initial begin                                    // BOARD, PROCESSOR, EP: parameters of the instance
@@ -52,13 +62,19 @@ initial begin                                    // BOARD, PROCESSOR, EP: parame
 end
 ```
 
-A processor without files loads `parked_ep<e>.hex` and `parked_material.hex`: its edges are -1 everywhere, so that it covers nothing. (What the host
+{unlisted} loads `parked_ep<e>.hex` and `parked_material.hex`: its edges are -1 everywhere, so that it covers nothing. (What the host
 left in a parked processor's other words may differ; no pixel does.) The words are those that the loading RAMs held when the frame's retrace began: start the
 frame with its frame-start microprogram, which copies them to the backup RAMs, or put them there at once. C in the backup RAM then
 changes from line to line.
-
+{torn}
 )",
-      fmt::arg("word_top", v.machine.word_bits - 1));
+      fmt::arg("word_top", v.machine.word_bits - 1), fmt::arg("torn", torn),
+      fmt::arg("unlisted", v.processors_listed == v.processors_with_object
+                               ? std::string("A processor without files")
+                               : fmt::format("These are the files of processors {} to {} alone, of those among them "
+                                             "that hold an object; the picture is "
+                                             "that of all processors. A processor of that range without files",
+                                             v.first_processor, v.last_processor)));
 }
 
 std::string pixels(const VectorsManifest& v) {
@@ -79,7 +95,9 @@ std::string pixels(const VectorsManifest& v) {
       R"(## From words to `decision.csv`
 
 On column x and line y, both from 0, an elementary processor shows **A x + B (y + 1) + C' modulo 2^{w}**. B is added before the first line is
-shown, so the host loaded C' = C - B. Everything wraps; nothing saturates.
+shown, so the host loaded C' = C - B. Everything wraps; nothing saturates. `microprogram.csv` is how: a read latches a RAM's output until the next, `select`
+connects the backup RAM's input, and the carry out of a slice of the adder waits in a flip-flop that is clocked with that slice. A lower slice is ahead of the
+highest by a clock a slice: its values wait in as many synchronisation registers, from which the word is read.
 {carry}
 - Coverage: a pixel is inside where the sign bits (bit {top}) of the three edge words are 0. The top-left rule is in C'.
 - Nearest: the smaller depth word wins, compared as unsigned. **Equal depth keeps the lower processor number.** Where nothing covers, depth is
@@ -89,14 +107,17 @@ shown, so the host loaded C' = C - B. Everything wraps; nothing saturates.
 - The link carries depth ({w} bits), three normal words ({n} bits each) and the material ({mat} bits). All columns of `decision.csv` are decimal.
 
 Values in `index.csv`: {edges}; depth counts units of 2^-{depth} (near is the word {near}, far the word {far}); a
-component of the normal counts units of 2^-{normal}. A and B are signed slopes a column and a line; C' is signed, but unsigned for depth.
+component of the normal counts units of 2^-{normal}. A and B are signed slopes a column and a line; C' is signed, but unsigned for depth. (Unit `px`: of an edge vector; `px2`: of its product with a distance;
+`units`: of depth, {side} of them over the words' range.)
 
 )",
       fmt::arg("w", v.machine.word_bits), fmt::arg("top", v.machine.word_bits - 1), fmt::arg("carry", carry),
       fmt::arg("background", v.machine.background_depth), fmt::arg("mag", v.machine.normal_bits - 1),
       fmt::arg("n", v.machine.normal_bits), fmt::arg("mat", v.machine.material_bits), fmt::arg("edges", edges),
       fmt::arg("depth", v.machine.depth_fraction_bits), fmt::arg("near", v.machine.near_depth),
-      fmt::arg("far", v.machine.far_depth), fmt::arg("normal", v.machine.normal_fraction_bits));
+      fmt::arg("far", v.machine.far_depth), fmt::arg("normal", v.machine.normal_fraction_bits),
+      fmt::arg("side", std::ldexp(1.0, static_cast<int>(v.machine.word_bits) -
+                                           static_cast<int>(v.machine.depth_fraction_bits))));
 }
 
 std::string shading(const VectorsManifest& v) {

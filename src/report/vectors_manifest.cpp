@@ -77,6 +77,7 @@ std::string vectors_manifest_text(const VectorsManifest& manifest) {
                {"scene_digest", manifest.scene_digest},
                {"frame", manifest.frame},
                {"animation_frame", manifest.animation_frame},
+               {"words_ahead", manifest.words_ahead},
                {"machine", machine_json(manifest.machine)},
                {"shading", shading_json(manifest.shading)},
                {"timing", timing_json(manifest.timing)},

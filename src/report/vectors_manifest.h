@@ -78,7 +78,8 @@ struct VectorsManifest {
   std::string config_digest;
   std::string scene_digest;
   std::uint64_t frame = 0;
-  std::int64_t animation_frame = 0;
+  std::int64_t animation_frame = 0;  // the pose that was last shown whole
+  std::uint64_t words_ahead = 0;     // of an update that the hosts have not finished: the picture is torn
   VectorsMachine machine;
   VectorsShading shading;
   VectorsTiming timing;

@@ -81,6 +81,14 @@ TEST_F(RereadVectorsTest, OtherWidths) {
 
 TEST_F(RereadVectorsTest, Pipeline) { same(kShippedMachine, kShippedTeapot, {"decision_unit.topology=pipeline"}); }
 
+// Half the hosts, and loading RAMs that are copied ready or not: some processors hold the words of the next frame.
+TEST_F(RereadVectorsTest, TornPicture) {
+  same(kShippedMachine, kShippedTeapot,
+       {"host.computation_units=4", "host.processors_per_unit=256", "host.swap=unconditional"}, {"--frame", "1"});
+  EXPECT_GT(number("words_ahead"), 0U);
+  EXPECT_THAT(text_of("README.md"), HasSubstr("This picture is torn"));
+}
+
 // The camera so near that triangles leave the screen and the depth range: clipped to the guard band, in pieces.
 TEST_F(RereadVectorsTest, ClippedToTheGuardBand) {
   same(kShippedMachine, kShippedTeapot, {"camera.eye=[0.0, -3.5, 2.2]"});

@@ -70,11 +70,26 @@ TEST_F(WholeVectorsTest, EveryFileIsListedWithItsDigest) {
     listed.insert(name);
   }
   EXPECT_EQ(names("out"), listed);
-  for (const char* name :
-       {"board0_processor0_ep0.hex", "board0_processor0_ep6.hex", "board0_processor0_material.hex", "parked_ep6.hex",
-        "parked_material.hex", "index.csv", "decision.csv", "rgb.csv", "tables.csv", "light0_diffuse_dot_x.hex",
-        "light0_specular_all.hex", "light0_signs.hex", "ambient.hex", "background.hex", "inverse_root_rom.hex",
-        "path_rom_exponent20.hex", "README.md", "config.resolved.toml", "scene.resolved.toml"})
+  for (const char* name : {"board0_processor0_ep0.hex",
+                           "board0_processor0_ep6.hex",
+                           "board0_processor0_material.hex",
+                           "parked_ep6.hex",
+                           "parked_material.hex",
+                           "index.csv",
+                           "microprogram.csv",
+                           "decision.csv",
+                           "rgb.csv",
+                           "tables.csv",
+                           "light0_diffuse_dot_x.hex",
+                           "light0_specular_all.hex",
+                           "light0_signs.hex",
+                           "ambient.hex",
+                           "background.hex",
+                           "inverse_root_rom.hex",
+                           "path_rom_exponent20.hex",
+                           "README.md",
+                           "config.resolved.toml",
+                           "scene.resolved.toml"})
     EXPECT_EQ(listed.count(name), 1U) << name;
   EXPECT_EQ(listed.count("board1_processor8_ep0.hex"), 0U) << "one object, one processor";
 }
@@ -123,6 +138,35 @@ TEST_F(WholeVectorsTest, CyclesMoveWithTheirParameters) {
   EXPECT_EQ(number("last_pixel_rgb_cycle"), number("first_pixel_rgb_cycle") + 47 * 10'174 + 63);
 }
 
+// 004, section 5.2.2: one listed line is one cycle.
+TEST_F(WholeVectorsTest, TheMicroprogramIsThePublishedOne) {
+  write_vectors();
+  EXPECT_EQ(text_of("microprogram.csv"),
+            "program,step,select,clear,ram,address,clocks\n"
+            "frame_start,0,loading_ram,0,,,00\n"
+            "frame_start,1,,0,read_loading,A,00\n"
+            "frame_start,2,,0,write_backup,A,00\n"
+            "frame_start,3,,0,read_loading,B,00\n"
+            "frame_start,4,,0,write_backup,B,00\n"
+            "frame_start,5,,0,read_loading,C,00\n"
+            "frame_start,6,,0,write_backup,C,00\n"
+            "frame_start,7,registers,0,,,00\n"
+            "line_start,0,,1,,,00\n"
+            "line_start,1,,0,read_backup,C,00\n"
+            "line_start,2,,0,,,11\n"
+            "line_start,3,,0,read_backup,B,00\n"
+            "line_start,4,,0,,,01\n"
+            "line_start,5,,0,,,10\n"
+            "line_start,6,,0,write_backup,C,00\n"
+            "line_start,7,,0,read_backup,A,00\n"
+            "line_start,8,,0,,,01\n"
+            "pixel,0,,0,,,11\n");
+  EXPECT_EQ(number("frame_start_cycles"), 8U);
+  EXPECT_EQ(number("line_start_cycles"), 9U);
+  write_vectors({"object_processor.slice_bits=24"});
+  EXPECT_THAT(text_of("microprogram.csv"), HasSubstr("line_start,6,,0,read_backup,A,0\npixel,0,,0,,,1\n"));
+}
+
 TEST_F(WholeVectorsTest, ThePageHasThisMachinesFigures) {
   write_vectors({"object_processor.word_bits=20"});
   const std::string page = text_of("README.md");
@@ -157,6 +201,7 @@ TEST_F(WholeVectorsTest, OfSomeProcessorsAlone) {
   EXPECT_GT(between, 0U);
   EXPECT_LT(between, all);
   for (const std::string& name : names("out")) EXPECT_NE(name.rfind("board0_", 0), 0U) << name;
+  EXPECT_THAT(text_of("README.md"), HasSubstr("the files of processors 8 to 15 alone"));
   EXPECT_EQ(text_of("decision.csv"), decision) << "the picture is the whole machine's";
 }
 
