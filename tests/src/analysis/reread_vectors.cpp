@@ -54,6 +54,12 @@ class Manifest {
   std::string text_;
 };
 
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += part;
+  return text;
+}
+
 // `count` words of `bits`, one a line, with leading zeros.
 std::vector<Word> hex_words(const std::string& name, std::size_t count, unsigned bits) {
   std::ifstream file = opened(name);
@@ -61,7 +67,7 @@ std::vector<Word> hex_words(const std::string& name, std::size_t count, unsigned
   for (std::string line; std::getline(file, line);) {
     const bool hexadecimal = line.find_first_not_of("0123456789abcdef") == std::string::npos;
     if (line.size() != (bits + 3) / 4 || !hexadecimal || std::stoull(line, nullptr, 16) >> bits != 0)
-      throw Difference(name + ": '" + line + "' is no word of " + std::to_string(bits) + " bits");
+      throw Difference(joined({name, ": '", line, "' is no word of ", std::to_string(bits), " bits"}));
     words.push_back(std::stoull(line, nullptr, 16));
   }
   if (words.size() != count)
@@ -309,9 +315,11 @@ class Shading {
       for (std::size_t i = 0; i < 3; ++i) {
         const std::string axis(1, "xyz"[i]);
         const std::string colour = std::array<const char*, 3>{"red", "green", "blue"}[i];
-        light.dot[0][i] = hex_words(name + "_diffuse_dot_" + axis + ".hex", Word{1} << dot_address_bits_, dot_bits_);
-        light.dot[1][i] = hex_words(name + "_specular_dot_" + axis + ".hex", Word{1} << dot_address_bits_, dot_bits_);
-        light.diffuse[i] = hex_words(name + "_diffuse_" + colour + ".hex", level_words, level_bits_);
+        light.dot[0][i] =
+            hex_words(joined({name, "_diffuse_dot_", axis, ".hex"}), Word{1} << dot_address_bits_, dot_bits_);
+        light.dot[1][i] =
+            hex_words(joined({name, "_specular_dot_", axis, ".hex"}), Word{1} << dot_address_bits_, dot_bits_);
+        light.diffuse[i] = hex_words(joined({name, "_diffuse_", colour, ".hex"}), level_words, level_bits_);
         const bool one = manifest.number("specular_tables") == 1;
         light.specular[i] = hex_words(name + "_specular_" + (one ? "all" : colour) + ".hex", level_words, level_bits_);
       }
