@@ -116,11 +116,12 @@ std::uint64_t ObjectBoard::memory_bytes() const {
 
 Interval ObjectBoard::interval_of(const ProcessorWords& words) const {
   const Interval all{0, static_cast<std::int32_t>(lines_)};
-  const TriangleWords triangle = to_triangle(words);
+  const std::array<LinearWords, 3> edges = to_triangle(words).edges;
   // A constant negative edge never covers, whatever clocks the carry: 0 added to 0 makes none.
   if (everything_) return all;
-  if (is_parked(triangle, format_.bits())) return {};
-  return late_carry_ ? all : touched_lines(triangle.edges, format_, static_cast<std::int32_t>(columns_), all.end);
+  for (const LinearWords& edge : edges)
+    if (edge.a == 0 && edge.b == 0 && (edge.c >> (format_.bits() - 1)) != 0) return {};
+  return late_carry_ ? all : touched_lines(edges, format_, static_cast<std::int32_t>(columns_), all.end);
 }
 
 std::uint32_t ObjectBoard::copy() {
