@@ -48,6 +48,11 @@ TriangleWords parked_triangle(unsigned word_bits) {
   return triangle;
 }
 
+bool is_parked(const TriangleWords& triangle, unsigned word_bits) {
+  return std::any_of(triangle.edges.begin(), triangle.edges.end(),
+                     [word_bits](const LinearWords& edge) { return is_negative_constant(edge, word_bits); });
+}
+
 ProcessorLogic triangle_processor_logic(const ObjectProcessorParameters& parameters, unsigned material_bits) {
   const auto word = static_cast<std::uint64_t>(parameters.word_bits);
   const auto slice = static_cast<std::uint64_t>(parameters.slice_bits);

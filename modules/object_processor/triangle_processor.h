@@ -50,6 +50,13 @@ TriangleWords to_triangle(const ProcessorWords& words);
 // The words of a slot without an object: its edges are -1 everywhere, so it never covers a pixel.
 TriangleWords parked_triangle(unsigned word_bits);
 
+// A word that is negative on every pixel, whatever its line. An edge of a parked processor is one.
+constexpr bool is_negative_constant(const LinearWords& words, unsigned word_bits) {
+  return words.a == 0 && words.b == 0 && (words.c >> (word_bits - 1)) != 0;
+}
+// Whether an edge keeps the processor from ever covering a pixel.
+bool is_parked(const TriangleWords& triangle, unsigned word_bits);
+
 // What one triangle processor is made of, for the memory and logic budget.
 struct ProcessorLogic {
   std::uint64_t ram_bits = 0;  // loading and backup RAMs of the seven EP1

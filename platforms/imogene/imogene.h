@@ -16,6 +16,7 @@
 #include "modules/object_processor/object_board_module.h"
 #include "modules/shading/deferred_shading_module.h"
 #include "modules/shading/table_loader_module.h"
+#include "modules/stream/tap_module.h"
 #include "modules/video/video_output_module.h"
 #include "modules/video/video_timing_module.h"
 #include "platforms/imogene/machine.h"
@@ -26,6 +27,10 @@ namespace rastertlm::imogene {
 struct Options {
   std::uint64_t frames = 1;       // to show
   bool model_everything = false;  // evaluate every processor on every line
+  // Observers of the decision unit's and of the shading processor's output, called inside the simulation for every
+  // line; none where empty.
+  stream::Observer<stream::FragmentPayload> decided = {};
+  stream::Observer<stream::RgbPayload> shaded = {};
 };
 
 // What a displayed frame shows, as the hosts left it.
@@ -138,6 +143,8 @@ class Imogene {
   std::unique_ptr<shading::DeferredShadingModule> shading_module_;
   std::unique_ptr<shading::TableLoaderModule> table_loader_;
   std::unique_ptr<video::VideoOutputModule> video_output_;
+  std::unique_ptr<stream::TapModule<stream::FragmentPayload>> decided_tap_;
+  std::unique_ptr<stream::TapModule<stream::RgbPayload>> shaded_tap_;
   std::deque<sc_core::sc_signal<bool>> ready_;
   sc_core::sc_signal<bool> tables_ready_{"tables_ready"};
 

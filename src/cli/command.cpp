@@ -13,6 +13,7 @@
 #include "src/cli/render_command.h"
 #include "src/cli/report_command.h"
 #include "src/cli/usage.h"
+#include "src/cli/vectors_command.h"
 
 namespace rastertlm::cli {
 namespace {
@@ -27,6 +28,7 @@ using Commands = std::vector<std::unique_ptr<Command>>;
 Commands all_commands() {
   Commands commands;
   commands.push_back(std::make_unique<RenderCommand>());
+  commands.push_back(std::make_unique<VectorsCommand>());
   commands.push_back(std::make_unique<ReportCommand>());
   commands.push_back(std::make_unique<DescribeCommand>());
   return commands;

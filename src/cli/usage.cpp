@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -55,6 +56,26 @@ std::string whole_from_one(const std::string& text) {
   std::uint64_t number = 0;
   if (reads_as(text, number) && number >= 1 && number <= kMostFrames) return {};
   return fmt::format("'{}' is not a whole number from 1 to {}", text, kMostFrames);
+}
+
+std::string frame_number(const std::string& text) {
+  std::uint64_t number = 0;
+  if (reads_as(text, number) && number < kMostFrames) return {};
+  return fmt::format("'{}' is not a whole number from 0 to {}", text, kMostFrames - 1);
+}
+
+std::pair<std::uint64_t, std::uint64_t> range_of(const std::string& text) {
+  const std::size_t dash = std::min(text.find('-'), text.size());
+  std::pair<std::uint64_t, std::uint64_t> range{1, 0};
+  const bool reads = dash < text.size() && reads_as(text.substr(0, dash), range.first) &&
+                     reads_as(text.substr(dash + 1), range.second);
+  return reads ? range : std::pair<std::uint64_t, std::uint64_t>{1, 0};
+}
+
+std::string whole_range(const std::string& text) {
+  const auto [first, last] = range_of(text);
+  if (first <= last) return {};
+  return fmt::format("'{}' is not FROM-TO, two whole numbers of which the first is not above the second", text);
 }
 
 std::string not_empty(const std::string& text) { return text.empty() ? "it is empty" : ""; }

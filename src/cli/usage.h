@@ -2,7 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rastertlm::cli {
@@ -16,6 +18,11 @@ std::string left_over(const CLI::App& app, const std::vector<std::string>& words
 // Validators: an empty text, or what is wrong.
 std::string finite_and_positive(const std::string& text);
 std::string whole_from_one(const std::string& text);
+std::string frame_number(const std::string& text);  // 0 .. one less than whole_from_one() allows
+std::string whole_range(const std::string& text);   // FROM-TO
 std::string not_empty(const std::string& text);
+
+// FROM and TO of a text that whole_range() has nothing against.
+std::pair<std::uint64_t, std::uint64_t> range_of(const std::string& text);
 
 }  // namespace rastertlm::cli

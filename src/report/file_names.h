@@ -9,6 +9,8 @@ namespace rastertlm::report {
 inline constexpr const char* kReportJson = "report.json";
 inline constexpr const char* kReportText = "report.txt";
 inline constexpr const char* kFramesCsv = "frames.csv";
+inline constexpr const char* kVectorsManifest = "manifest.json";
+inline constexpr const char* kVectorsPage = "README.md";
 inline constexpr const char* kResolvedMachine = "config.resolved.toml";
 inline constexpr const char* kResolvedScene = "scene.resolved.toml";
 

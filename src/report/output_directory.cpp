@@ -22,6 +22,7 @@
 #include "src/report/file_names.h"
 #include "src/report/json_report.h"
 #include "src/report/text_file.h"
+#include "src/report/vectors_manifest.h"
 
 namespace rastertlm::report {
 namespace {
@@ -105,9 +106,11 @@ void remove_stale(const std::string& target) {
   for (const std::string& path : stale) remove_quietly(path);
 }
 
-bool holds_report(const std::string& directory) {
+bool holds_result(const std::string& directory) {
   const std::optional<std::string> report = read_text_file(directory + '/' + kReportJson);
-  return report && is_report(*report);
+  if (report && is_report(*report)) return true;
+  const std::optional<std::string> manifest = read_text_file(directory + '/' + kVectorsManifest);
+  return manifest && is_vectors_manifest(*manifest);
 }
 
 // "out", where runs without --out made "out/teapot_imogene": nothing in it but results of ours, which stay.
@@ -115,7 +118,7 @@ bool holds_results_alone(const std::string& directory) {
   std::error_code error;
   bool any = false;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
-    if (!entry->is_directory(error) || entry->is_symlink(error) || !holds_report(entry->path().string())) return false;
+    if (!entry->is_directory(error) || entry->is_symlink(error) || !holds_result(entry->path().string())) return false;
     any = true;
   }
   return any && !error;
@@ -124,12 +127,12 @@ bool holds_results_alone(const std::string& directory) {
 void refuse_what_is_not_ours(const std::string& target) {
   if (!exists(target)) return;
   if (!is_directory(target)) throw InputError(Diagnostic{target, 0, "", "is not a directory; nothing was written"});
-  if (!holds_report(target) && !holds_results_alone(target))
+  if (!holds_result(target) && !holds_results_alone(target))
     throw InputError(
         Diagnostic{target, 0, "",
-                   fmt::format("exists and holds no {} of rastertlm, so it is not replaced; name another --out, or "
-                               "remove it",
-                               kReportJson)});
+                   fmt::format("exists and holds no {} of rastertlm and no {} of its vectors, so it is not "
+                               "replaced; name another --out, or remove it",
+                               kReportJson, kVectorsManifest)});
 }
 
 std::string without_slash(std::string path) {

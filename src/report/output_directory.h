@@ -10,8 +10,8 @@ namespace rastertlm::report {
 class OutputDirectory {
  public:
   // Makes DIR.partial-<pid> and the directories above it, and removes the partial directories of DIR whose process is
-  // gone. Throws InputError where DIR exists and holds no report.json of this program, and OutputError where nothing
-  // can be written.
+  // gone. Throws InputError where DIR exists and holds neither a report.json nor a manifest.json of this program, and
+  // OutputError where nothing can be written.
   explicit OutputDirectory(const std::string& directory);
   OutputDirectory(const OutputDirectory&) = delete;
   OutputDirectory& operator=(const OutputDirectory&) = delete;

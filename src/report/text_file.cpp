@@ -35,6 +35,23 @@ class Descriptor {
   int number_;
 };
 
+constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
+
+int open_to_write(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kFileMode);
+  if (descriptor < 0) throw OutputError(output_message(path, errno));
+  return descriptor;
+}
+
+void write_all(int descriptor, std::string_view text, const std::string& path) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(descriptor, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) throw OutputError(output_message(path, count == 0 ? ENOSPC : errno));
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
 }  // namespace
 
 std::string output_message(const std::string& path, int error) {
@@ -42,15 +59,35 @@ std::string output_message(const std::string& path, int error) {
 }
 
 void write_text_file(const std::string& path, const std::string& text) {
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kFileMode));
-  if (file.number() < 0) throw OutputError(output_message(path, errno));
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(file.number(), text.data() + done, text.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) throw OutputError(output_message(path, count == 0 ? ENOSPC : errno));
-    done += static_cast<std::size_t>(count);
-  }
+  Descriptor file(open_to_write(path));
+  write_all(file.number(), text, path);
   if (file.close() != 0) throw OutputError(output_message(path, errno));
+}
+
+TextFileWriter::TextFileWriter(const std::string& path) : path_(path), descriptor_(open_to_write(path)) {}
+
+TextFileWriter::~TextFileWriter() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void TextFileWriter::append(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= kBufferBytes) flush();
+}
+
+void TextFileWriter::flush() {
+  write_all(descriptor_, buffer_, path_);
+  digest_.update(buffer_);
+  bytes_ += buffer_.size();
+  buffer_.clear();
+}
+
+void TextFileWriter::close() {
+  flush();
+  const int result = ::close(descriptor_);
+  descriptor_ = -1;
+  if (result != 0) throw OutputError(output_message(path_, errno));
+  sha256_ = digest_.hex();
 }
 
 std::optional<std::string> read_text_file(const std::string& path) {

@@ -1,13 +1,43 @@
 // Whole files, written so that a full disk or a file-size limit is noticed.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+
+#include "src/base/digest.h"
 
 namespace rastertlm::report {
 
 // Makes or overwrites the file. Throws OutputError with the path and the reason.
 void write_text_file(const std::string& path, const std::string& text);
+
+// A file that is written piece by piece through a buffer, with the digest of its bytes. It is whole when close() has
+// returned.
+class TextFileWriter {
+ public:
+  // Makes or overwrites the file. This, append() and close() throw OutputError with the path and the reason.
+  explicit TextFileWriter(const std::string& path);
+  TextFileWriter(const TextFileWriter&) = delete;
+  TextFileWriter& operator=(const TextFileWriter&) = delete;
+  ~TextFileWriter();
+  void append(std::string_view text);
+  void close();
+
+  std::uint64_t bytes() const { return bytes_; }
+  // 64 hexadecimal digits, once it is closed.
+  const std::string& sha256() const { return sha256_; }
+
+ private:
+  void flush();
+  std::string path_;
+  int descriptor_;
+  std::string buffer_;
+  std::uint64_t bytes_ = 0;
+  Sha256 digest_;
+  std::string sha256_;
+};
 
 // The file's bytes; empty where it is missing, is no regular file or cannot be read.
 std::optional<std::string> read_text_file(const std::string& path);

@@ -38,6 +38,25 @@ TEST(TriangleProcessor, ParkedWordsAreNegativeEverywhere) {
   }
 }
 
+TEST(TriangleProcessor, IsParkedByOneConstantNegativeEdge) {
+  TriangleWords triangle;
+  for (LinearWords& edge : triangle.edges) edge = {1, 0, 0};
+  EXPECT_FALSE(is_parked(triangle, 24));
+  for (LinearWords& edge : triangle.edges) {
+    const LinearWords before = edge;
+    edge = {0, 0, 0xffffff};
+    EXPECT_TRUE(is_parked(triangle, 24));
+    edge = {0, 0, 0x800000};
+    EXPECT_TRUE(is_parked(triangle, 24));
+    for (const LinearWords& other : {LinearWords{0, 0, 0x7fffff}, {1, 0, 0xffffff}, {0, 0xffffff, 0xffffff}}) {
+      edge = other;
+      EXPECT_FALSE(is_parked(triangle, 24));
+    }
+    edge = before;
+  }
+  EXPECT_TRUE(is_parked(parked_triangle(32), 32));
+}
+
 // Seven EP1 of two 12-bit slices: 2 RAMs of 3 words, a word of slice registers and one of RAM output, one 12-bit
 // synchronisation register and one carry flip-flop each; the material and the pre-normalised normal.
 TEST(TriangleProcessor, CountsThePublishedHardware) {

@@ -17,6 +17,15 @@ TEST(Sha256, HasThePublishedDigests) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(Sha256, IsTheSameOfPieces) {
+  Sha256 pieces;
+  pieces.update("abcdbcdecdefdefgefghfghighij");
+  pieces.update("");
+  pieces.update("hijkijkljklmklmnlmnomnopnopq");
+  EXPECT_EQ(pieces.hex(), "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+  EXPECT_EQ(Sha256().hex(), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
 TEST(Sha256, ReadsZeroBytes) { EXPECT_NE(sha256_hex(std::string(1, '\0')), sha256_hex("")); }
 
 }  // namespace

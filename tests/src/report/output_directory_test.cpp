@@ -8,9 +8,11 @@
 #include <memory>
 #include <set>
 
+#include "src/base/digest.h"
 #include "src/base/errors.h"
 #include "src/report/json_report.h"
 #include "src/report/text_file.h"
+#include "src/report/vectors_manifest.h"
 #include "tests/src/report/example_result.h"
 
 namespace rastertlm::report {
@@ -87,6 +89,22 @@ TEST_F(OutputDirectoryTest, ReplacesItsOwnAndKeepsTheResultsBelow) {
   EXPECT_EQ(names(folder_), std::set<std::string>{"out"});
 }
 
+TEST_F(OutputDirectoryTest, ReplacesVectorsAndNobodyElsesManifest) {
+  const std::string directory = in_folder("out");
+  {
+    OutputDirectory output(directory);
+    write_text_file(output.path("manifest.json"), vectors_manifest_text({}));
+    write_text_file(output.path("old.hex"), "x");
+    output.commit();
+  }
+  make_result(directory, "new");  // a result takes the place of vectors, as of another result
+  EXPECT_EQ(names(directory), (std::set<std::string>{"report.json", "new"}));
+  fs::create_directories(in_folder("app"));
+  write_text_file(in_folder("app/manifest.json"), R"({"schema": 1, "name": "an app"})");
+  EXPECT_THROW(OutputDirectory{in_folder("app")}, InputError);
+  EXPECT_EQ(names(in_folder("app")), std::set<std::string>{"manifest.json"});
+}
+
 TEST_F(OutputDirectoryTest, RefusesWhatIsNotItsOwn) {
   fs::create_directories(in_folder("empty"));
   fs::create_directories(in_folder("other"));
@@ -145,6 +163,24 @@ TEST_F(OutputDirectoryTest, NoticesAFullDisk) {
   EXPECT_THROW(write_text_file("/dev/full", "x"), OutputError);
   EXPECT_THROW(write_text_file(in_folder("none/x"), "x"), OutputError);
   EXPECT_FALSE(read_text_file(folder_).has_value());
+}
+
+TEST_F(OutputDirectoryTest, WritesPieceByPieceWithADigest) {
+  std::string all;
+  TextFileWriter file(in_folder("x"));
+  for (int i = 0; i < 200'000; ++i) {
+    const std::string piece = std::to_string(i) + '\n';
+    file.append(piece);
+    all += piece;
+  }
+  file.close();
+  EXPECT_EQ(read_text_file(in_folder("x")), all);
+  EXPECT_EQ(file.bytes(), all.size());
+  EXPECT_EQ(file.sha256(), sha256_hex(all));
+  TextFileWriter full("/dev/full");
+  full.append("x");
+  EXPECT_THROW(full.close(), OutputError);
+  EXPECT_THROW(TextFileWriter{in_folder("none/x")}, OutputError);
 }
 
 }  // namespace
