@@ -200,5 +200,32 @@ TEST_F(LateTablesTest, LoadersThatShareTheWorkAreInTime) {
             named(one.result.links, "dot product loader to tables").bytes);
 }
 
+// An engine's busy cycles are those of the words that each of its loaders has stored, in every mode, at the end of a
+// run that cuts a load short as well: to a store of 26 cycles and the rounding of a load's start and end.
+TEST_F(LateTablesTest, LoadersAreBusyForTheWordsThatTheyStore) {
+  const std::string retrace = "loader.when=retrace";
+  const std::string shown = "loader.on_overrun=show";
+  const std::string slow = "loader.dot.clock_mhz=3.0";
+  struct Case {
+    std::vector<std::string> set;
+    std::uint64_t loaders;
+    std::uint64_t loads;  // that ended
+  };
+  for (const Case& c : {Case{{}, 2, kFrames}, Case{{slow}, 2, 2}, Case{{slow, "host.swap=unconditional"}, 2, 2},
+                        Case{{retrace, shown}, 2, kFrames - 1}, Case{{retrace, shown, slow}, 2, 2},
+                        Case{{"loader.dot.units=2"}, 4, kFrames}, Case{{slow, "loader.dot.units=2"}, 4, 3}}) {
+    SCOPED_TRACE(c.set.empty() ? "as ever" : c.set.back());
+    const Simulated simulated = turned(c.set);
+    const run::LinkFigures& link = named(simulated.result.links, "dot product loader to tables");
+    ASSERT_EQ(link.bits, 11 * c.loaders);
+    const double stores = 8.0 * static_cast<double>(link.bytes) / link.bits;
+    const run::UnitFigures& engine = named(simulated.result.units, "dot product loader");
+    EXPECT_NEAR(static_cast<double>(engine.busy), 26 * stores, 26 + 2.0 * double(kFrames));
+    const double load = 6144.0 * 2 / static_cast<double>(c.loaders);
+    EXPECT_GE(stores, load * double(c.loads) - 1);
+    EXPECT_LT(stores, load * double(c.loads + 1));
+  }
+}
+
 }  // namespace
 }  // namespace rastertlm::test
