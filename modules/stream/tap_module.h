@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <systemc>
 #include <utility>
 
@@ -38,5 +39,19 @@ class TapModule : public sc_core::sc_module {
   }
   Observer<Payload> observer_;
 };
+
+// From one unit to the next, through a tap where somebody watches.
+template <class Payload, class Out, class In>
+std::unique_ptr<TapModule<Payload>> bind_watched(const char* name, const Observer<Payload>& observer, Out& out,
+                                                 In& in) {
+  if (!observer) {
+    out.bind(in);
+    return nullptr;
+  }
+  auto tap = std::make_unique<TapModule<Payload>>(name, observer);
+  out.bind(tap->in);
+  tap->out.bind(in);
+  return tap;
+}
 
 }  // namespace rastertlm::stream

@@ -61,20 +61,6 @@ std::uint32_t depth_of_nothing(const Machine& machine) {
   return static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(machine.object_processor.word_bits)));
 }
 
-// From one unit to the next, through a tap where somebody watches.
-template <class Payload, class Out, class In>
-std::unique_ptr<stream::TapModule<Payload>> bind_watched(const char* name, const stream::Observer<Payload>& observer,
-                                                         Out& out, In& in) {
-  if (!observer) {
-    out.bind(in);
-    return nullptr;
-  }
-  auto tap = std::make_unique<stream::TapModule<Payload>>(name, observer);
-  out.bind(tap->in);
-  tap->out.bind(in);
-  return tap;
-}
-
 Cycles cycles_of(std::int64_t count) { return Cycles(static_cast<std::uint64_t>(count)); }
 
 }  // namespace
@@ -335,8 +321,8 @@ void Imogene::bind_display() {
     video_timing_->sync[k + 2].bind(board_modules_[k]->sync);
     board_modules_[k]->out.bind(decision_module_->in[k]);
   }
-  decided_tap_ = bind_watched("decided_tap", options_.decided, decision_module_->out, shading_module_->in);
-  shaded_tap_ = bind_watched("shaded_tap", options_.shaded, shading_module_->out, video_output_->in);
+  decided_tap_ = stream::bind_watched("decided_tap", options_.decided, decision_module_->out, shading_module_->in);
+  shaded_tap_ = stream::bind_watched("shaded_tap", options_.shaded, shading_module_->out, video_output_->in);
 }
 
 void Imogene::note_shown(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps) {
