@@ -37,7 +37,7 @@ std::vector<shading::LightArguments> light_arguments(const geometry::Pose& pose)
 AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation,
                                          const HostCost& cost, std::size_t children, std::size_t units,
                                          Overflow overflow, Timeline timeline, const std::vector<stream::Link*>& links,
-                                         InitialLoad initial_load, stream::Link* light_link)
+                                         InitialLoad initial_load, stream::Link* bus)
     : sc_module(name),
       down("down", children),
       up("up", children),
@@ -48,7 +48,7 @@ AnimationUnitModule::AnimationUnitModule(const sc_core::sc_module_name& name, co
       overflow_(overflow),
       timeline_(std::move(timeline)),
       initial_load_(std::move(initial_load)),
-      light_link_{light_link},
+      bus_(bus),
       meter_(cost.clock()) {
   for (stream::Link* link : links) links_.push_back({link});
   for (auto& socket : up) socket.register_b_transport(this, &AnimationUnitModule::receive);
@@ -102,8 +102,12 @@ void AnimationUnitModule::announce_lights() {
   light_payload_.lights = light_arguments(work_->pose);
   sc_core::sc_time delay;
   light_operations_ = light_payload_.changed ? geometry::operation_counts - before : geometry::OperationCounts();
-  if (light_link_.link != nullptr && light_payload_.changed)
-    delay = start_message(shading::light_message_bytes(light_payload_.lights.size()), cost_, light_link_, meter_);
+  if (bus_ != nullptr && light_payload_.changed) {
+    const std::uint64_t words = shading::light_words(light_payload_.lights.size());
+    bus_->record(cost_.bus_words(words), Cycles(cost_.bus_words(words)));
+    meter_.enter(Activity::busy, picoseconds_now());
+    wait(stream::to_time(cost_.clock(), cost_.bus(words)));
+  }
   loader->b_transport(light_payload_, delay);
 }
 

@@ -30,7 +30,7 @@ class AnimationUnitModule : public sc_core::sc_module {
   AnimationUnitModule(const sc_core::sc_module_name& name, const Animation& animation, const HostCost& cost,
                       std::size_t children, std::size_t units, Overflow overflow, Timeline timeline,
                       const std::vector<stream::Link*>& links, InitialLoad initial_load = {},
-                      stream::Link* light_link = nullptr);
+                      stream::Link* bus = nullptr);
 
   // The frame that the machine shows after the next swap.
   const FrameWork& work() const { return *work_; }
@@ -53,7 +53,7 @@ class AnimationUnitModule : public sc_core::sc_module {
   Timeline timeline_;
   std::vector<LinkPort> links_;
   InitialLoad initial_load_;
-  LinkPort light_link_;  // to the table loader; none: its messages take no time
+  stream::Link* bus_;  // to the table loader, which hangs on it as boards do on theirs; none: it takes no time
   std::unique_ptr<FrameWork> work_;
   MessagePayload payload_;
   shading::LightPayload light_payload_;

@@ -17,8 +17,8 @@ struct LightPayload : tlm::tlm_generic_payload {
   std::vector<LightArguments> lights;  // all of the scene
 };
 
-// A header, and for each light its vector, its highlight vector and its intensity as 32-bit words.
-constexpr std::uint64_t light_message_bytes(std::size_t lights) { return 8 + 4 * 9 * lights; }
+// A header of two words, and for each light its vector, its highlight vector and its intensity.
+constexpr std::uint64_t light_words(std::size_t lights) { return 2 + 9 * lights; }
 
 using LightProtocol = stream::Protocol<LightPayload>;
 

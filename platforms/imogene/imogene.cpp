@@ -158,7 +158,7 @@ void Imogene::build_links() {
                                        machine_.material_bits()};
   for (std::size_t k = 0; k < units; ++k)
     host_links_.push_back(&add_link(fmt::format("host link {}", k), 8, byte_clock));
-  light_link_ = &add_link("animation unit to table loader", 8, byte_clock);
+  loader_bus_ = &add_link("animation unit's bus", static_cast<unsigned>(machine_.host.bus_bits), bus_clock);
   for (std::size_t k = 0; k < units; ++k)
     bus_links_.push_back(&add_link(fmt::format("bus {}", k), static_cast<unsigned>(machine_.host.bus_bits), bus_clock));
   for (std::size_t k = 0; k < units; ++k)
@@ -188,7 +188,6 @@ void Imogene::build_hosts() {
       result.push_back(subtree[child]);
     return result;
   };
-  stream::Link& light_link = *light_link_;
   // The last processor copies later than the first by the skew of the microinstruction.
   const host::CopyTimes copies{timing_.clock, timing_.frame,
                                object_processor::frame_start_cycles() +
@@ -205,7 +204,7 @@ void Imogene::build_hosts() {
       "animation_unit", animation_, cost_, below(0).size(), units, machine_.host.overflow,
       host::AnimationUnitModule::Timeline{&video_timing_->swapped,
                                           [this] { return video_timing_->displayed_frame() - 1; }},
-      below(0), meshes_below(0), &light_link);
+      below(0), meshes_below(0), loader_bus_);
   for (std::size_t k = 0; k < units; ++k) {
     computations_.push_back(std::make_unique<host::Computation>(resident_, format, slots_.boards[k]));
     computation_units_.push_back(std::make_unique<host::ComputationUnitModule>(
@@ -362,7 +361,7 @@ void Imogene::reset_host_links() {
   for (stream::Link* link : host_links_) link->reset();
   for (stream::Link* link : bus_links_) link->reset();
   for (stream::Link* link : table_links_) link->reset();
-  light_link_->reset();
+  loader_bus_->reset();
 }
 
 void Imogene::run() {

@@ -129,7 +129,7 @@ class Imogene {
   std::vector<stream::Link*> bus_links_;    // of unit k
   std::vector<stream::Link*> board_links_;  // of board k
   std::vector<stream::Link*> table_links_;
-  stream::Link* light_link_ = nullptr;
+  stream::Link* loader_bus_ = nullptr;
   std::vector<std::unique_ptr<host::Computation>> computations_;
   std::vector<object_processor::ObjectBoard> boards_;
   decision_unit::DecisionUnit decision_;
