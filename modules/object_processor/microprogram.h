@@ -38,6 +38,10 @@ Microinstruction pixel_instruction(unsigned slices);
 // Closed forms of their lengths.
 constexpr Cycles frame_start_cycles() { return Cycles(8); }
 constexpr Cycles line_start_cycles(unsigned slices) { return Cycles(2 * std::uint64_t{slices} + 5); }
+// Where the next line shown is not the next of the picture (interlaced video), B y + C goes on by running the program
+// once for each line that it passes. The papers do not say how; so no word, register or adder is added, and the host's
+// words are those of any other screen.
+constexpr Cycles line_start_cycles(unsigned slices, std::uint64_t lines) { return line_start_cycles(slices) * lines; }
 constexpr Cycles pixel_cycles() { return Cycles(1); }
 
 }  // namespace rastertlm::object_processor

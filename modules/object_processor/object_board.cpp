@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "src/base/errors.h"
 
@@ -109,7 +110,7 @@ std::uint32_t ObjectBoard::slots_in_use() const {
 std::uint64_t ObjectBoard::memory_bytes() const {
   const std::uint64_t a_slot = sizeof(Slot) + sizeof(std::uint8_t) + sizeof(Interval);
   const std::uint64_t indices = changes_.capacity() + bucket_begin_.capacity() + bucket_slots_.capacity() +
-                                active_.capacity() + merged_.capacity();
+                                active_.capacity() + merged_.capacity() + newcomers_.capacity();
   return slots_.capacity() * a_slot + indices * sizeof(std::uint32_t) +
          std::uint64_t{columns_} * 4 * sizeof(std::uint32_t);
 }
@@ -160,16 +161,14 @@ void ObjectBoard::select_processors(std::uint32_t line) {
   if (line == current_line_) return;
   const auto position = static_cast<std::int32_t>(line);
   merged_.clear();
-  if (current_line_ != kNoLine && line == current_line_ + 1) {
-    // What was active and lasts, merged with what begins here.
-    std::uint32_t next = bucket_begin_[line];
-    const std::uint32_t last = bucket_begin_[line + 1];
-    for (const std::uint32_t slot : active_) {
-      if (intervals_[slot].end <= position) continue;
-      while (next < last && bucket_slots_[next] < slot) merged_.push_back(bucket_slots_[next++]);
-      merged_.push_back(slot);
-    }
-    while (next < last) merged_.push_back(bucket_slots_[next++]);
+  if (current_line_ != kNoLine && line > current_line_) {
+    // What was active and lasts, merged with what began since and lasts.
+    newcomers_.clear();
+    for (std::uint32_t next = bucket_begin_[current_line_ + 1]; next < bucket_begin_[line + 1]; ++next)
+      if (intervals_[bucket_slots_[next]].end > position) newcomers_.push_back(bucket_slots_[next]);
+    if (line > current_line_ + 1) std::sort(newcomers_.begin(), newcomers_.end());  // those of one line are in order
+    std::erase_if(active_, [&](std::uint32_t slot) { return intervals_[slot].end <= position; });
+    std::merge(active_.begin(), active_.end(), newcomers_.begin(), newcomers_.end(), std::back_inserter(merged_));
   } else {
     for (std::uint32_t slot = 0; slot < intervals_.size(); ++slot)
       if (intervals_[slot].holds(position)) merged_.push_back(slot);

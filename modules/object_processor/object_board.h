@@ -60,7 +60,8 @@ class ObjectBoard {
 
   // Merges what the board's processors show on `line` (0..lines-1) into `out`, which holds what arrives from processors
   // with lower numbers, or is cleared; `out` has this board's columns. Strictly smaller depth wins, so that equal depth
-  // keeps the lower number. Lines taken in order cost nothing extra; a jump looks at every slot once.
+  // keeps the lower number. Lines taken in order, some left out or not, cost nothing extra; a step back looks at every
+  // slot once.
   void evaluate_line(std::uint32_t line, frame::FragmentLine& out);
 
   const BoardCounters& counters() const { return counters_; }
@@ -114,8 +115,9 @@ class ObjectBoard {
   std::vector<std::uint32_t> bucket_begin_;  // lines + 1: where the slots that begin on a line stand in bucket_slots_
   std::vector<std::uint32_t> bucket_slots_;  // in order of their numbers within a line
 
-  std::vector<std::uint32_t> active_;  // slots whose interval holds current_line_, in order of their numbers
-  std::vector<std::uint32_t> merged_;  // the next active_, in the making
+  std::vector<std::uint32_t> active_;     // slots whose interval holds current_line_, in order of their numbers
+  std::vector<std::uint32_t> merged_;     // the next active_, in the making
+  std::vector<std::uint32_t> newcomers_;  // of them, those that begin after the line before
   std::uint32_t current_line_ = kNoLine;
 
   // Of the line being evaluated. winner_ is zero between lines.

@@ -22,6 +22,9 @@ unsigned ObjectProcessorParameters::slices_that_fit(double period_ns) const {
 }
 
 void ObjectProcessorParameters::declare(parameter::Table& table) {
+  table.text("object_processor.preset", preset,
+             {"", "What the processors are built of: sets the object processor keys that the file does not.",
+              "budgets[] adder_delay, line_start"});
   table.integer("object_processor.word_bits", word_bits, {8, 32},
                 {"bits", "Width of coefficients, registers and depth of an elementary processor.",
                  "picture, memories[], decision_unit pins"});

@@ -19,6 +19,7 @@ enum class EdgeForm { snapped, scaled };
 enum class CarryClock { clock1, clock2 };
 
 struct ObjectProcessorParameters {
+  std::string preset = "standard_cell_1991";
   std::int64_t word_bits = 24;   // of a coefficient, a register and the depth on the link
   std::int64_t slice_bits = 12;  // of one adder; at most word_bits
   std::int64_t snap_bits = -1;   // fraction bits of snapped vertices; -1: the finest that fits the word

@@ -178,6 +178,17 @@ bool TableLoaderModule::advance(std::uint64_t picoseconds, bool to_line) {
   return late;
 }
 
+std::uint64_t TableLoaderModule::left_ps(std::uint64_t since_ps, bool to_line) const {
+  std::uint64_t left = 0;
+  if (work_ != Work::running || !at_retrace()) return left;
+  for (std::size_t engine = 0; engine < kEngines; ++engine) {
+    const std::uint64_t end = started_ps_ + to_picoseconds(load_.seconds(engine));
+    const std::uint64_t from = since_ps + (to_line ? engines_[engine].reached_ps : 0);
+    if (end > from) left = std::max(left, end - from);
+  }
+  return left;
+}
+
 void TableLoaderModule::close(std::uint64_t end_ps) {
   if (work_ == Work::running) advance(end_ps, false);
 }

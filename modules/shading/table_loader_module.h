@@ -45,6 +45,10 @@ class TableLoaderModule : public sc_core::sc_module {
   // and of all frames.
   std::uint64_t late_lines_of_frame() const { return late_lines_of_frame_; }
   std::uint64_t late_lines() const { return late_lines_; }
+  // Of a load under way into the only bank: picoseconds from `since_ps` to its end, of the slowest loader, and to the
+  // first time at which a line may start and find every table written to its end. 0: none, or no wait.
+  std::uint64_t load_left_ps(std::uint64_t since_ps) const { return left_ps(since_ps, false); }
+  std::uint64_t lines_wait_ps(std::uint64_t since_ps) const { return left_ps(since_ps, true); }
   // Words that the loaders have stored up to now are written: the end of what is counted.
   void close(std::uint64_t end_ps);
   const stream::Occupancy& occupancy(std::size_t engine, std::uint64_t end_ps) {
@@ -64,6 +68,7 @@ class TableLoaderModule : public sc_core::sc_module {
   void synchronise(stream::SyncPayload& payload, sc_core::sc_time& delay);
   void start_of_retrace(stream::SyncPayload& payload);
   bool advance(std::uint64_t picoseconds, bool to_line);
+  std::uint64_t left_ps(std::uint64_t since_ps, bool to_line) const;
   void plan();
   void refuse() const;
   void start();

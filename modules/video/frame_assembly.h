@@ -13,6 +13,7 @@ class FrameAssembly {
   struct Format {
     std::size_t columns = 0;
     std::size_t lines = 0;
+    std::size_t fields = 1;     // 2: even lines, then odd ones, are woven into a frame
     unsigned normal_bits = 12;  // of a normal word: a sign bit above a one's complement magnitude
     std::uint32_t background_depth = 0xFFFFFF;
     bool observe = true;  // false: only the levels are kept
@@ -22,8 +23,9 @@ class FrameAssembly {
 
   // Lines may come in any order; each line of a frame comes once.
   void add_line(std::size_t line, const frame::RgbLine& rgb, const frame::FragmentLine& fragments);
-  // Whether line `line` was the last of its frame.
-  bool complete(std::size_t line) const { return line + 1 == format_.lines; }
+  // Whether line `line` was the last of its field, and of which: 0 or 1. A frame that is not interlaced is one field.
+  bool ends_field(std::size_t line) const { return line + format_.fields >= format_.lines; }
+  std::size_t field(std::size_t line) const { return line % format_.fields; }
   const frame::Frame& frame() const { return frame_; }
 
  private:

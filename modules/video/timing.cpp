@@ -12,9 +12,9 @@ namespace {
 
 // The slowest pixel clock, to the picosecond, that leaves a clock of blanking on every line however the frame and its
 // retrace are rounded to whole clocks; "" where no clock does.
-std::string slowest_clock(const VideoParameters& parameters) {
+std::string slowest_clock(const VideoParameters& parameters, std::uint64_t lines) {
   const double shown_ns = 1e9 / parameters.refresh_hz - 1e3 * parameters.vertical_retrace_us;
-  const double clocks = static_cast<double>(parameters.lines) * static_cast<double>(parameters.columns + 1) + 1.0;
+  const double clocks = static_cast<double>(lines) * static_cast<double>(parameters.columns + 1) + 1.0;
   const double clock_ns = std::floor(1e3 * shown_ns / clocks) * 1e-3;
   return clock_ns < kFastestClockNs ? "" : fmt::format("; at most {:.9g} ns would leave some", clock_ns);
 }
@@ -25,7 +25,13 @@ Timing timing(const VideoParameters& parameters) {
   Timing t;
   t.clock = Clock::from_period_ns("pixel clock", parameters.pixel_clock_ns);
   const auto columns = static_cast<std::uint64_t>(parameters.columns);
-  const auto lines = static_cast<std::uint64_t>(parameters.lines);
+  t.fields = parameters.interlaced ? 2 : 1;
+  if (static_cast<std::size_t>(parameters.lines) % t.fields != 0)
+    throw InputError({"", 0, "video.lines",
+                      fmt::format("is {}; an interlaced picture has as many odd lines as even ones, and an even number "
+                                  "of lines",
+                                  parameters.lines)});
+  const std::uint64_t lines = static_cast<std::uint64_t>(parameters.lines) / t.fields;  // of a video frame
   t.frame = t.clock.cycles_round(1.0 / parameters.refresh_hz);
   const Cycles retrace = t.clock.cycles_round(parameters.vertical_retrace_us * 1e-6);
   if (retrace >= t.frame)
@@ -35,10 +41,11 @@ Timing timing(const VideoParameters& parameters) {
                      parameters.vertical_retrace_us, retrace.count(), t.frame.count(), parameters.refresh_hz)});
   t.line = Cycles((t.frame - retrace).count() / lines);
   if (t.line.count() <= columns)
-    throw InputError({"", 0, "video.pixel_clock_ns",
-                      fmt::format("a pixel clock of {} ns leaves {} clocks for a line of {} pixels, and no horizontal "
-                                  "blanking{}",
-                                  parameters.pixel_clock_ns, t.line.count(), columns, slowest_clock(parameters))});
+    throw InputError(
+        {"", 0, "video.pixel_clock_ns",
+         fmt::format("a pixel clock of {} ns leaves {} clocks for a line of {} pixels, and no horizontal "
+                     "blanking{}",
+                     parameters.pixel_clock_ns, t.line.count(), columns, slowest_clock(parameters, lines))});
   t.vertical_retrace = t.frame - t.line * lines;
   t.horizontal_blanking = t.line - Cycles(columns);
   return t;

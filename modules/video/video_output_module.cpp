@@ -16,8 +16,8 @@ void VideoOutputModule::receive(stream::RgbPayload& payload, sc_core::sc_time& d
   assembly_.add_line(payload.line, *payload.rgb, *payload.fragments);
   ++lines_shown_;
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
-  if (assembly_.complete(payload.line) && sink_)
-    sink_(payload.frame, assembly_.frame(), stream::picoseconds_now() + delay.value());
+  if (assembly_.ends_field(payload.line) && sink_)
+    sink_(payload.frame, assembly_.field(payload.line), assembly_.frame(), stream::picoseconds_now() + delay.value());
 }
 
 }  // namespace rastertlm::video

@@ -16,9 +16,11 @@ class VideoOutputModule : public sc_core::sc_module {
  public:
   tlm_utils::simple_target_socket<VideoOutputModule, stream::kNoBusWidth, stream::RgbProtocol> in;
 
-  // Called with each finished frame; `last_pixel_ps` is the time at which its last pixel left, counted from the start
-  // of the simulation.
-  using FrameSink = std::function<void(std::uint64_t frame, const frame::Frame&, std::uint64_t last_pixel_ps)>;
+  // Called with the frame at the end of each of its fields (a frame that is not interlaced has one): in between, lines
+  // of the other field are those of the frame before. `last_line_ps` is the time at which the first pixel of the
+  // field's last line left, counted from the start of the simulation.
+  using FrameSink =
+      std::function<void(std::uint64_t frame, std::size_t field, const frame::Frame&, std::uint64_t last_line_ps)>;
 
   VideoOutputModule(const sc_core::sc_module_name& name, const FrameAssembly::Format& format, FrameSink sink);
 

@@ -31,7 +31,7 @@ bool VideoTimingModule::everything_ready() const {
 
 void VideoTimingModule::announce(SyncPayload::Kind kind, std::size_t line, Cycles since_frame_start) {
   payload_.kind = kind;
-  payload_.frame = displayed_;
+  payload_.frame = shown_ / timing_.fields;
   payload_.line = line;
   for (auto& socket : sync) {
     sc_core::sc_time delay = stream::to_time(timing_.clock, since_frame_start);
@@ -40,7 +40,7 @@ void VideoTimingModule::announce(SyncPayload::Kind kind, std::size_t line, Cycle
 }
 
 void VideoTimingModule::begin_retrace(std::uint64_t video_frame) {
-  payload_.swap = everything_ready();
+  payload_.swap = everything_ready() && (showing_ || begins_frame(video_frame));
   if (payload_.swap) {
     if (!showing_) {
       first_frame_ps_ = stream::picoseconds_now();
@@ -56,20 +56,26 @@ void VideoTimingModule::begin_retrace(std::uint64_t video_frame) {
   payload_.copy = payload_.swap = payload_.switch_tables = false;
 }
 
+// Lines of the picture that are in the field being shown: all, or those of its parity.
+void VideoTimingModule::announce_lines() {
+  for (std::size_t line = shown_ % timing_.fields; line < lines_; line += timing_.fields)
+    announce(SyncPayload::Kind::line, line, timing_.line_start(line));
+}
+
 void VideoTimingModule::run_guarded() {
   stream::run_guarded([this] { run(); });
 }
 
-// A frame:
+// A video frame:
 // 1. the retrace begins; where all is ready, loading RAMs are copied and tables switched, and the hosts may go on
 //    (where loading RAMs are copied at every retrace, they are, ready or not);
 // 2. its lines are announced with their times as delays: nothing that a line reads can change before the next retrace,
 //    so the kernel need not stop at each (tables that are late are brought to the line's time by their loader, which
 //    hears of it before the boards);
-// 3. whoever runs the simulation gets a chance to look at the frame;
+// 3. whoever runs the simulation gets a chance to look at the picture;
 // 4. time passes to the end of the frame, counted from the start of the simulation in cycles.
 void VideoTimingModule::run() {
-  for (std::uint64_t video_frame = 0; displayed_ < frames_; ++video_frame) {
+  for (std::uint64_t video_frame = 0; shown_ < frames_ * timing_.fields; ++video_frame) {
     if (!showing_ && video_frame > patience_)
       throw InputError(
           {"", 0, "host",
@@ -77,9 +83,8 @@ void VideoTimingModule::run() {
     wait(sc_core::SC_ZERO_TIME);  // who finishes at this very instant is in time
     begin_retrace(video_frame);
     if (showing_) {
-      for (std::size_t line = 0; line < lines_; ++line)
-        announce(SyncPayload::Kind::line, line, timing_.line_start(line));
-      ++displayed_;
+      announce_lines();
+      ++shown_;
       sc_core::sc_pause();
     }
     const std::uint64_t end = timing_.clock.picoseconds(timing_.frame * (video_frame + 1));

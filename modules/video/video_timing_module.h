@@ -26,19 +26,21 @@ class VideoTimingModule : public sc_core::sc_module {
     at_every_retrace  // from the first picture on, whatever stands in the loading RAMs
   };
 
-  // Shows `frames` frames, the first at the first retrace at which everything is ready. Gives up with an InputError
-  // after `patience` frames without a first picture.
+  // Shows `frames` displayed frames, the first at the first retrace at which everything is ready (where the video is
+  // interlaced, the first that begins even lines). Gives up with an InputError after `patience` video frames without a
+  // first picture.
   VideoTimingModule(const sc_core::sc_module_name& name, const Timing& timing, std::size_t lines, std::size_t listeners,
                     std::size_t computation_units, std::uint64_t frames, std::uint64_t patience,
                     Copy copy = Copy::when_ready);
 
-  // Picoseconds at which the first displayed frame's retrace began, and the number of displayed frames that began with
+  // Picoseconds at which the first displayed frame's retrace began, and the number of video frames that began with
   // everything ready.
   std::uint64_t first_frame_ps() const { return first_frame_ps_; }
   std::uint64_t updates() const { return updates_; }
   std::uint64_t frames_before_first() const { return frames_before_first_; }
-  // The displayed frame that is being shown; before the first picture, 0.
-  std::uint64_t displayed_frame() const { return displayed_; }
+  // Video frames shown so far, with the one whose lines are being announced not yet among them: the number of the video
+  // frame that is being shown; before the first picture, 0.
+  std::uint64_t video_frames_shown() const { return shown_; }
   // The last frame has been shown to its end.
   bool finished() const { return finished_; }
 
@@ -47,6 +49,8 @@ class VideoTimingModule : public sc_core::sc_module {
   void run();
   bool everything_ready() const;
   void begin_retrace(std::uint64_t video_frame);
+  bool begins_frame(std::uint64_t video_frame) const { return video_frame % timing_.fields == 0; }
+  void announce_lines();
   void announce(stream::SyncPayload::Kind kind, std::size_t line, Cycles since_frame_start);
 
   Timing timing_;
@@ -55,7 +59,7 @@ class VideoTimingModule : public sc_core::sc_module {
   std::uint64_t patience_;
   Copy copy_;
   stream::SyncPayload payload_;
-  std::uint64_t displayed_ = 0;
+  std::uint64_t shown_ = 0;
   std::uint64_t updates_ = 0;
   std::uint64_t first_frame_ps_ = 0;
   std::uint64_t frames_before_first_ = 0;

@@ -81,7 +81,8 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
   if (sc_core::sc_get_time_resolution() != sc_core::sc_time(1, sc_core::SC_PS))
     throw ModelError("platform", 0, "SystemC's time resolution is not 1 ps");
   constexpr double kMostPicoseconds = 4e18;  // time is counted in 64 bits
-  if (static_cast<double>(options.frames) * static_cast<double>(timing_.clock.picoseconds(timing_.frame)) >
+  if (static_cast<double>(options.frames) *
+          static_cast<double>(timing_.clock.picoseconds(timing_.frame * timing_.fields)) >
       kMostPicoseconds)
     throw InputError({"", 0, "--frames",
                       fmt::format("{} frames last longer than the 46 days that can be simulated", options.frames)});
@@ -203,7 +204,7 @@ void Imogene::build_hosts() {
   animation_unit_ = std::make_unique<host::AnimationUnitModule>(
       "animation_unit", animation_, cost_, below(0).size(), units, machine_.host.overflow,
       host::AnimationUnitModule::Timeline{&video_timing_->swapped,
-                                          [this] { return video_timing_->displayed_frame() - 1; }},
+                                          [this] { return video_timing_->video_frames_shown() - 1; }},
       below(0), meshes_below(0), loader_bus_);
   for (std::size_t k = 0; k < units; ++k) {
     computations_.push_back(std::make_unique<host::Computation>(resident_, format, slots_.boards[k]));
@@ -273,12 +274,16 @@ void Imogene::build_shading() {
 }
 
 void Imogene::build_video() {
-  const video::FrameAssembly::Format format{
-      static_cast<std::size_t>(machine_.video.columns), static_cast<std::size_t>(machine_.video.lines),
-      static_cast<unsigned>(machine_.object_processor.normal_bits), depth_of_nothing(machine_), true};
+  const video::FrameAssembly::Format format{static_cast<std::size_t>(machine_.video.columns),
+                                            static_cast<std::size_t>(machine_.video.lines),
+                                            timing_.fields,
+                                            static_cast<unsigned>(machine_.object_processor.normal_bits),
+                                            depth_of_nothing(machine_),
+                                            true};
   video_output_ = std::make_unique<video::VideoOutputModule>(
-      "video_output", format, [this](std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps) {
-        note_shown(frame, pixels, last_pixel_ps);
+      "video_output", format,
+      [this](std::uint64_t frame, std::size_t field, const frame::Frame& pixels, std::uint64_t last_line_ps) {
+        note_shown(frame, field, pixels, last_line_ps);
       });
 }
 
@@ -324,8 +329,10 @@ void Imogene::bind_display() {
   shaded_tap_ = stream::bind_watched("shaded_tap", options_.shaded, shading_module_->out, video_output_->in);
 }
 
-void Imogene::note_shown(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps) {
+void Imogene::note_shown(std::uint64_t frame, std::size_t field, const frame::Frame& pixels,
+                         std::uint64_t last_line_ps) {
   shown_.frame = frame;
+  shown_.field = field;
   shown_.updated = video_timing_->updates() != updates_seen_;
   shown_.words_ahead = 0;
   for (const auto& board : board_modules_) shown_.words_ahead += board->words_ahead();
@@ -348,11 +355,28 @@ void Imogene::note_shown(std::uint64_t frame, const frame::Frame& pixels, std::u
   }
   shown_.late_table_lines = table_loader_->late_lines_of_frame();
   most_pieces_ = std::max(most_pieces_, shown_.triangles.pieces + shown_.pieces_dropped);
-  if (frame == 0) reset_host_links();
-  const std::uint64_t frame_ps = timing_.clock.picoseconds(timing_.frame * frame);
-  shown_.first_pixel_ps = frame_ps + timing_.clock.picoseconds(timing_.first_pixel(0) + pixel_latency_);
-  shown_.last_pixel_ps = last_pixel_ps - start_ps() + timing_.clock.picoseconds(Cycles(pixels.columns - 1));
+  note_deadlines();
+  if (frame == 0 && field == 0) reset_host_links();
+  const Cycles retrace = timing_.frame * (frame * timing_.fields + field);
+  shown_.first_pixel_ps = timing_.clock.picoseconds(retrace + timing_.first_pixel(field) + pixel_latency_);
+  // Of whole cycles, each step on the way rounded to a picosecond: the nearest number of cycles is the exact one.
+  const Cycles last_line = timing_.clock.cycles_round(static_cast<double>(last_line_ps - start_ps()) * 1e-12);
+  shown_.last_pixel_ps = timing_.clock.picoseconds(last_line + Cycles(pixels.columns - 1));
   pixels_ = &pixels;
+}
+
+// Lines are announced at the retrace, so the hosts have not begun their next update: their last one is what it copied.
+void Imogene::note_deadlines() {
+  const std::uint64_t video_frame = frames_before_first() + shown_.frame * timing_.fields + shown_.field;
+  shown_.table_load = timing_.clock.cycles_at(table_loader_->load_left_ps(stream::picoseconds_now()));
+  shown_.tables_wait = timing_.clock.cycles_at(table_loader_->lines_wait_ps(stream::picoseconds_now()));
+  if (shown_.updated) {
+    shown_.host_frames = video_frame - shown_.video_frame;
+    shown_.host_cycles = Cycles(0);
+    for (const auto& unit : computation_units_)
+      if (!unit->updates().empty()) shown_.host_cycles = std::max(shown_.host_cycles, unit->updates().back().cycles);
+    shown_.video_frame = video_frame;
+  }
 }
 
 // What crossed the links before the first picture is the initial load: bandwidth counts from there. The display's links
@@ -406,7 +430,7 @@ void Imogene::settle() {
 }
 
 void Imogene::check_identities() {
-  const std::uint64_t cycle = (timing_.frame * options_.frames).count();
+  const std::uint64_t cycle = (timing_.frame * timing_.fields * options_.frames).count();
   const auto equal = [cycle](const char* unit, const char* rule, std::uint64_t left, std::uint64_t right) {
     if (left != right) throw ModelError(unit, cycle, fmt::format("{}: {} is not {}", rule, left, right));
   };

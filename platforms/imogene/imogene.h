@@ -25,7 +25,7 @@
 namespace rastertlm::imogene {
 
 struct Options {
-  std::uint64_t frames = 1;       // to show
+  std::uint64_t frames = 1;       // to show; of interlaced video, of two fields each
   bool model_everything = false;  // evaluate every processor on every line
   // Observers of the decision unit's and of the shading processor's output, called inside the simulation for every
   // line; none where empty.
@@ -33,10 +33,20 @@ struct Options {
   stream::Observer<stream::RgbPayload> shaded = {};
 };
 
-// What a displayed frame shows, as the hosts left it.
+// What a video frame shows, as the hosts left it: a displayed frame, or one of its two fields where it is interlaced.
 struct ShownFrame {
-  std::uint64_t frame = 0;
-  bool updated = false;  // new coefficients came in at its retrace
+  std::uint64_t frame = 0;        // displayed frame
+  std::size_t field = 0;          // of it: 0 even lines, 1 odd lines
+  bool updated = false;           // new coefficients came in at its retrace
+  std::uint64_t video_frame = 0;  // since the start of the simulation
+  // Where updated: of the slowest unit, from the retrace that started the update to its last word, and how many video
+  // frames passed to the retrace that copied it.
+  Cycles host_cycles;
+  std::uint64_t host_frames = 0;
+  // Pixel clocks from its retrace to the end of a load into the tables that it is shaded from, and before which a line
+  // that starts finds them not written to their ends; 0: none.
+  Cycles table_load;
+  Cycles tables_wait;
   std::int64_t animation_frame = 0;
   scene::Pose pose;
   bool guarded = false;
@@ -46,7 +56,7 @@ struct ShownFrame {
   std::uint64_t pieces_dropped = 0;  // of clipped triangles, that found no processor
   std::uint64_t words_ahead = 0;     // in use, of an update that the hosts have not finished: the picture is torn
   std::uint64_t late_table_lines = 0;
-  std::uint64_t first_pixel_ps = 0;  // since the first displayed frame's retrace began
+  std::uint64_t first_pixel_ps = 0;  // of the field, since the first displayed frame's retrace began
   std::uint64_t last_pixel_ps = 0;
 };
 
@@ -60,6 +70,7 @@ struct Books {
 
 class Imogene {
  public:
+  // Called after every video frame that is shown, with the displayed frame as far as it has come.
   using Sink = std::function<void(const ShownFrame&, const frame::Frame&)>;
 
   // Machine and scene outlive it. Throws InputError where the machine cannot take the scene. One a process.
@@ -104,7 +115,8 @@ class Imogene {
   void build_video();
   void bind_hosts();
   void bind_display();
-  void note_shown(std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps);
+  void note_shown(std::uint64_t frame, std::size_t field, const frame::Frame& pixels, std::uint64_t last_line_ps);
+  void note_deadlines();
   void reset_host_links();
   void close_books();
   void settle();

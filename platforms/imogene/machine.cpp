@@ -50,11 +50,12 @@ void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
   gather([&] { snap_grids(*this); });
   gather([&] {
     const video::Timing timing = video::timing(video);
-    const Cycles line_start = object_processor::line_start_cycles(object_processor.slices());
+    const Cycles line_start = object_processor::line_start_cycles(object_processor.slices(), timing.fields);
     if (line_start > timing.horizontal_blanking)
-      throw InputError({"", 0, "video.pixel_clock_ns",
-                        fmt::format("the line start takes {} pixel clocks, and horizontal blanking has {}",
-                                    line_start.count(), timing.horizontal_blanking.count())});
+      throw InputError(
+          {"", 0, "video.pixel_clock_ns",
+           fmt::format("the line start takes {} pixel clocks{}, and horizontal blanking has {}", line_start.count(),
+                       timing.fields > 1 ? " (interlaced: two lines' work)" : "", timing.horizontal_blanking.count())});
   });
   if (processors() > kMostProcessors)
     diagnostics.add({file, 0, "host.processors_per_unit",

@@ -34,6 +34,7 @@ class Writer {
     object_[key] = what;
   }
   void texts(const char* key, const Field&, const std::vector<std::string>& strings) { object_[key] = strings; }
+  void integers(const char* key, const Field&, const std::vector<std::int64_t>& numbers) { object_[key] = numbers; }
   template <class Inside>
   void object(const char* key, const char*, const Inside& inside) {
     Writer writer(object_[key]);
@@ -107,6 +108,14 @@ class Reader {
         strings.push_back(text.get<std::string>());
       else
         wrong(key, "a list of text");
+    }
+  }
+  void integers(const char* key, const Field&, std::vector<std::int64_t>& numbers) {
+    const Json* json = find(key, &Json::is_array, "a list");
+    if (json == nullptr) return;
+    for (const Json& number : *json) {
+      if (!number.is_number_integer()) return wrong(key, "a list of integers");
+      numbers.push_back(number.get<std::int64_t>());
     }
   }
   template <class Inside>

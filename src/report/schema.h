@@ -4,6 +4,7 @@
 //   metric(key, field, reference)     a real that is given to six significant digits
 //   derived(key, field, value)        a value that follows from others: written, not read
 //   texts(key, field, strings)        a list of sentences
+//   integers(key, field, integers)    a list of integers
 //   object(key, description, function(Visitor&))
 //   list(key, description, vector, function(Visitor&, element))
 //   derived_object(key, description, pointer, function(Visitor&, *pointer))   null where there is none
@@ -101,6 +102,48 @@ void visit(Visitor& v, run::Budget& b) {
 }
 
 template <class Visitor>
+void visit(Visitor& v, run::Deadlines& d) {
+  v.object("retrace", "the vertical retrace that is left the least", [&](Visitor& o) {
+    o.value("available_cycles", {"pixel clocks", kFormula, "of the vertical retrace"}, d.retrace.available_cycles);
+    o.value("boards_cycles", {"pixel clocks", kFormula, "of it that pipeline skew and frame start take"},
+            d.retrace.boards_cycles);
+    o.value("tables_cycles", {"pixel clocks", kFormula, "that the longest load begun at a retrace takes beside them"},
+            d.retrace.tables_cycles);
+    o.value("frame", {"", kCount, "displayed frame of which it is the retrace"}, d.retrace.frame);
+    o.value("slack_cycles", {"pixel clocks", kFormula, "left of it; negative: late"}, d.retrace.slack_cycles);
+    o.metric("slack_us", {"us", kFormula, "the same"}, d.retrace.slack_us);
+    o.value("needs", {"", kFormula, "what it is left for: frame start or table load"}, d.retrace.needs);
+  });
+  v.object("lines", "the start of scan lines", [&](Visitor& o) {
+    o.value("available_cycles", {"pixel clocks", kFormula, "of horizontal blanking"}, d.lines.available_cycles);
+    o.object("worst", "the line that is left the least", [&](Visitor& w) {
+      w.value("frame", {"", kCount, "displayed frame"}, d.lines.worst.frame);
+      w.value("line", {"", kCount, "of the picture, from 0"}, d.lines.worst.line);
+      w.value("available_cycles",
+              {"pixel clocks", kFormula, "before its first pixel: blanking, and for a first line the retrace"},
+              d.lines.worst.available_cycles);
+      w.value("needed_cycles", {"pixel clocks", kFormula, "of them that are needed"}, d.lines.worst.needed_cycles);
+      w.value("slack_cycles", {"pixel clocks", kFormula, "left of them; negative: late"}, d.lines.worst.slack_cycles);
+      w.metric("slack_us", {"us", kFormula, "the same"}, d.lines.worst.slack_us);
+      w.value("needs", {"", kFormula, "what they are left for: line start or table load"}, d.lines.worst.needs);
+    });
+    o.integers("slack_cycles", {"pixel clocks", kFormula, "of each line, the least over the frames"},
+               d.lines.slack_cycles);
+  });
+  v.object("host", "the update of coefficients that is left the least, before the retrace that copies it",
+           [&](Visitor& o) {
+             o.value("shown", {"", kCount, "whether it came in after the first picture; false: the next one is meant"},
+                     d.host.shown);
+             o.value("frame", {"", kCount, "displayed frame that shows it first; 0 where none does"}, d.host.frame);
+             o.value("video_frames", {"frames", kFormula, "video frames that the update takes"}, d.host.video_frames);
+             o.value("used_cycles", {"host cycles", kFormula, "of the slowest unit, from retrace to last word"},
+                     d.host.used_cycles);
+             o.value("slack_cycles", {"host cycles", kFormula, "left of those video frames"}, d.host.slack_cycles);
+             o.metric("slack_us", {"us", kFormula, "from the last host's last word to the retrace"}, d.host.slack_us);
+           });
+}
+
+template <class Visitor>
 void visit(Visitor& v, run::LinkFigures& l) {
   v.value("name", {"", kSetting, "the link"}, l.name);
   v.value("bits", {"bits", kSetting, "its width"}, l.bits);
@@ -174,7 +217,10 @@ void visit(Visitor& v, run::FrameFigures& f) {
   v.derived("channels_file", {"", kFormula, "everything that is known of each pixel"}, channels_name(f.frame));
   v.derived("error_file", {"", kFormula, "absolute error against the ideal picture, amplified; empty: not measured"},
             find_error(f, "ideal") != nullptr ? error_name(f.frame) : std::string());
-  v.value("animation_frame", {"", kFormula, "the pose that it shows"}, f.animation_frame);
+  v.value("animation_frame", {"", kFormula, "the pose that it shows; of interlaced video, on its even lines"},
+          f.animation_frame);
+  v.value("last_animation_frame", {"", kFormula, "the pose that it shows on its last line: of its second field"},
+          f.last_animation_frame);
   v.value("first_pixel_ps", {"ps", kCount, "first pixel, since the first displayed frame's retrace began"},
           f.first_pixel_ps);
   v.value("last_pixel_ps", {"ps", kCount, "last pixel, since the same"}, f.last_pixel_ps);
@@ -197,6 +243,10 @@ void visit(Visitor& v, run::FrameFigures& f) {
           f.words_ahead);
   v.derived("torn", {"", kFormula, "words_ahead > 0"}, f.words_ahead > 0);
   v.value("late_table_lines", {"lines", kCount, "shaded from half-written tables"}, f.late_table_lines);
+  v.value("line_slack_cycles", {"pixel clocks", kFormula, "left at its worst line"}, f.line_slack_cycles);
+  v.value("retrace_slack_cycles", {"pixel clocks", kFormula, "left of its vertical retrace"}, f.retrace_slack_cycles);
+  v.metric("host_slack_us", {"us", kFormula, "from the last host's last word to its retrace; null: nothing new"},
+           f.host_slack_us);
   v.derived_object("error", "the figures of errors[] against the reference \"ideal\"", find_error(f, "ideal"),
                    [](Visitor& e, reference::ErrorFigures& figures) { visit(e, figures); });
   v.list("errors", "distance from each exact picture", f.errors,
@@ -260,10 +310,12 @@ void visit(Visitor& v, Contents& contents) {
     o.value("columns", {"pixels", kSetting, "of a line"}, r.columns);
     o.value("lines", {"lines", kSetting, "of a frame"}, r.lines);
     o.value("obtained_refresh_hz", {"Hz", kFormula, "display rate in whole pixel clocks"}, r.obtained_refresh_hz);
+    o.value("interlaced", {"", kSetting, "whether a frame is two fields, and rates are of fields"}, r.interlaced);
   });
   v.object("answer", "does the machine show the scene at its rate", [&](Visitor& o) { visit(o, r.answer); });
   visit_list(v, "units", "where the cycles of each unit go, over the whole run", r.units);
   visit_list(v, "budgets", "what is needed beside what there is", r.budgets);
+  v.object("deadlines", "what is left of the display's deadlines", [&](Visitor& o) { visit(o, r.deadlines); });
   visit_list(v, "links", "bandwidth", r.links);
   visit_list(v, "memories", "bits", r.memories);
   visit_list(v, "logic", "adders, comparators, pins", r.logic);

@@ -25,6 +25,9 @@ class Describer {
   void texts(const char* key, const Field& field, const std::vector<std::string>&) {
     add(std::string(key) + "[]", field);
   }
+  void integers(const char* key, const Field& field, const std::vector<std::int64_t>&) {
+    add(std::string(key) + "[]", field);
+  }
   template <class Inside>
   void object(const char* key, const char*, const Inside& inside) {
     Describer describer(path_ + key + '.', found_);

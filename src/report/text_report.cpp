@@ -101,6 +101,38 @@ std::string budgets_section(const run::Result& result) {
          sentence_line("In brackets: this machine does not depend on it; stated for comparison.");
 }
 
+std::string deadlines_section(const run::Result& result) {
+  const run::Deadlines& d = result.deadlines;
+  TextTable table({{"deadline"},
+                   {"worst"},
+                   {"available", Align::right},
+                   {"needed", Align::right},
+                   {"left", Align::right},
+                   {"left, us", Align::right},
+                   {"of"},
+                   {"for"}},
+                  kIndent);
+  const auto in_clocks = [](std::int64_t cycles) { return quantity(static_cast<double>(cycles)); };
+  const auto in_us = [](double us) { return fmt::format("{:.6g}", us); };
+  const run::Deadlines::Lines::Worst& line = d.lines.worst;
+  table.row({"scan line", fmt::format("frame {}, line {}", line.frame, line.line), grouped(line.available_cycles),
+             grouped(line.needed_cycles), in_clocks(line.slack_cycles), in_us(line.slack_us),
+             "pixel clocks before its first pixel", line.needs});
+  table.row({"vertical retrace", fmt::format("frame {}", d.retrace.frame), grouped(d.retrace.available_cycles),
+             in_clocks(static_cast<std::int64_t>(d.retrace.available_cycles) - d.retrace.slack_cycles),
+             in_clocks(d.retrace.slack_cycles), in_us(d.retrace.slack_us), "pixel clocks", d.retrace.needs});
+  table.row({"hosts' update", d.host.shown ? fmt::format("frame {}", d.host.frame) : "the next one",
+             in_clocks(static_cast<std::int64_t>(d.host.used_cycles) + d.host.slack_cycles),
+             grouped(d.host.used_cycles), in_clocks(d.host.slack_cycles), in_us(d.host.slack_us),
+             "host cycles of " + counted(d.host.video_frames, "video frame", "video frames"),
+             "links, arithmetic and bus of the slowest unit"});
+  return heading("Deadlines") + table.text() +
+         sentence_line(
+             "The worst of all frames; of equal ones the first. The first line of a retrace has the retrace "
+             "too. Every frame's are in its row of " +
+             std::string(kFramesCsv) + ".");
+}
+
 std::string links_section(const run::Result& result) {
   if (result.links.empty()) return "";
   TextTable table({{"link"},
@@ -169,6 +201,9 @@ std::string pictures_section(const run::Result& result) {
   add("shaded from half-written tables", f.late_table_lines, "lines");
   std::string text = heading("What the picture is made of") + table.text();
   if (result.frames.size() > 1) text += sentence_line(fmt::format("Every frame is a row of {}.", kFramesCsv));
+  if (result.interlaced)
+    text += sentence_line(
+        "A frame is two fields: figures of triangles are those of the even lines' pose, operations and words of both.");
   return text;
 }
 
@@ -217,9 +252,9 @@ std::string inputs_section(const run::Result& result) {
 
 std::string answer_sentence(const run::Result& result) {
   const run::Answer& a = result.answer;
-  std::string text =
-      fmt::format("{}x{} at {} Hz: {}, {:.1f} updates/s", result.columns, result.lines, rate(a.required_rate_hz),
-                  a.sustained ? "sustained" : "NOT sustained", a.update_rate_hz);
+  std::string text = fmt::format("{}x{}{} at {} Hz: {}, {:.1f} updates/s", result.columns, result.lines,
+                                 result.interlaced ? " interlaced" : "", rate(a.required_rate_hz),
+                                 a.sustained ? "sustained" : "NOT sustained", a.update_rate_hz);
   if (a.update_rate_hz < 0.999 * a.display_rate_hz)
     text += fmt::format(" on a display that scans out {:.1f} times a second", a.display_rate_hz);
   if (a.bottleneck.unit.empty()) return text + "; nothing limits it.";
@@ -239,6 +274,7 @@ std::string text_report(const Contents& contents) {
   text += limits_section(result);
   text += units_section(result);
   text += budgets_section(result);
+  text += deadlines_section(result);
   text += links_section(result);
   text += error_section(result);
   text += memory_section(result);

@@ -22,11 +22,13 @@ void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
   const video::Timing& timing = platform.timing();
   const unsigned slices = machine.object_processor.slices();
   const double retrace = as_real(timing.vertical_retrace);
-  budgets.push_back(budget(
-      "line_start", as_real(object_processor::line_start_cycles(slices)), as_real(timing.horizontal_blanking), "cycles",
-      fmt::format("2 x {} slices + 5 (004, section 5.2.2); horizontal blanking of {} - {} pixel clocks", slices,
-                  timing.line.count(), machine.video.columns),
-      "object_processor.slice_bits, video.columns, video.pixel_clock_ns"));
+  budgets.push_back(
+      budget("line_start", as_real(object_processor::line_start_cycles(slices, timing.fields)),
+             as_real(timing.horizontal_blanking), "cycles",
+             fmt::format("{}2 x {} slices + 5{} (004, section 5.2.2); horizontal blanking of {} - {} pixel clocks",
+                         timing.fields > 1 ? "twice (" : "", slices, timing.fields > 1 ? "), for two lines" : "",
+                         timing.line.count(), machine.video.columns),
+             "object_processor.slice_bits, video.interlaced, video.columns, video.pixel_clock_ns"));
   budgets.push_back(budget("frame_start", as_real(object_processor::frame_start_cycles()), retrace, "cycles",
                            "the copy's 8 steps (004, section 5.2.2); vertical retrace", "video.vertical_retrace_us"));
   const Cycles skew =
@@ -93,10 +95,12 @@ std::string limit_sentence(const Budget& b) {
 
 Bottleneck find_bottleneck(Imogene& platform, const std::vector<Budget>& budgets, const HostLoad& host) {
   const imogene::Machine& machine = platform.machine();
-  const std::uint64_t line_cycles = object_processor::line_start_cycles(machine.object_processor.slices()).count() +
-                                    static_cast<std::uint64_t>(machine.video.columns);
-  const std::uint64_t board_cycles =
-      object_processor::frame_start_cycles().count() + line_cycles * static_cast<std::uint64_t>(machine.video.lines);
+  const std::size_t fields = platform.timing().fields;
+  const std::uint64_t line_cycles =
+      object_processor::line_start_cycles(machine.object_processor.slices(), fields).count() +
+      static_cast<std::uint64_t>(machine.video.columns);
+  const std::uint64_t board_cycles = object_processor::frame_start_cycles().count() +
+                                     line_cycles * (static_cast<std::uint64_t>(machine.video.lines) / fields);
   Bottleneck worst;
   take(worst, "object boards", "pixel clocks of a frame",
        static_cast<double>(board_cycles) / as_real(platform.timing().frame));
@@ -178,8 +182,8 @@ Answer imogene_answer(Imogene& platform, const std::vector<Budget>& budgets) {
   answer.frame_rate_hz = answer.update_rate_hz;
   answer.latency_frames = update_frames;
   const Cycles first_pixel = timing.first_pixel(0) + platform.pixel_latency();
-  const Cycles last_pixel = first_pixel + timing.line * static_cast<std::uint64_t>(machine.video.lines - 1) +
-                            Cycles(static_cast<std::uint64_t>(machine.video.columns - 1));
+  const Cycles last_pixel = timing.first_pixel(static_cast<std::size_t>(machine.video.lines - 1)) +
+                            platform.pixel_latency() + Cycles(static_cast<std::uint64_t>(machine.video.columns - 1));
   answer.latency_first_pixel_us = 1e6 * timing.clock.seconds(timing.frame * update_frames + first_pixel);
   answer.latency_last_pixel_us = 1e6 * timing.clock.seconds(timing.frame * update_frames + last_pixel);
   answer.initial_load_frames = platform.frames_before_first();

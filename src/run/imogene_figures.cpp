@@ -19,7 +19,7 @@ UnitFigures figures(const std::string& name, const Clock& clock, const stream::O
 
 // A unit of the display side works in step with the pixel clock: it is busy or idle, and never waits.
 UnitFigures display_unit(const std::string& name, const Imogene& platform, std::uint64_t frames, std::uint64_t busy) {
-  const std::uint64_t cycles = frames * platform.timing().frame.count();
+  const std::uint64_t cycles = frames * platform.timing().fields * platform.timing().frame.count();
   return figures(name, platform.timing().clock, {cycles, busy, 0, 0, cycles - busy});
 }
 
@@ -38,12 +38,15 @@ std::vector<UnitFigures> unit_figures(Imogene& platform) {
         figures(fmt::format("computation unit {}", k), platform.cost().clock(), platform.books().computation_units[k]));
   const std::uint64_t line_start =
       object_processor::line_start_cycles(platform.machine().object_processor.slices()).count();
+  // Line starts of a displayed frame: one for each line that is passed.
+  std::uint64_t line_starts = 0;
+  for (std::uint64_t line = 0; line < lines_of(platform); ++line) line_starts += platform.timing().lines_advanced(line);
   const std::uint64_t shown = platform.decision_module().lines_sent() / lines_of(platform);
   for (std::size_t k = 0; k < platform.board_modules().size(); ++k) {
     const auto& board = *platform.board_modules()[k];
     units.push_back(display_unit(fmt::format("object board {}", k), platform, shown,
                                  board.copies() * object_processor::frame_start_cycles().count() +
-                                     board.lines_sent() * (line_start + columns_of(platform))));
+                                     shown * line_starts * line_start + board.lines_sent() * columns_of(platform)));
   }
   const std::uint64_t pixels = platform.decision_module().lines_sent() * columns_of(platform);
   for (const char* name : {"decision unit", "shading processor", "video output"})

@@ -100,11 +100,47 @@ struct Modelled {
   std::vector<std::string> left_out;  // sentences: what was not simulated because the scene does not need it
 };
 
-// One displayed frame: its figures, not its pixels.
+// What is left of the display's deadlines, where it is least.
+struct Deadlines {
+  struct Retrace {
+    std::uint64_t available_cycles = 0;  // pixel clocks of the vertical retrace
+    std::uint64_t boards_cycles = 0;     // of which pipeline skew and frame start take
+    std::uint64_t tables_cycles = 0;     // and beside them the longest table load
+    std::uint64_t frame = 0;             // displayed frame
+    std::int64_t slack_cycles = 0;
+    double slack_us = 0.0;
+    std::string needs;  // "frame start" or "table load": what is left the least for
+  } retrace;
+  struct Lines {
+    std::uint64_t available_cycles = 0;  // pixel clocks of horizontal blanking
+    struct Worst {
+      std::uint64_t frame = 0;
+      std::uint64_t line = 0;
+      std::uint64_t available_cycles = 0;  // until its first pixel: blanking; of the first of a retrace, that too
+      std::uint64_t needed_cycles = 0;
+      std::int64_t slack_cycles = 0;  // negative: late
+      double slack_us = 0.0;
+      std::string needs;  // "line start" or "table load"
+    } worst;
+    std::vector<std::int64_t> slack_cycles;  // a line of the picture, the least over the frames
+  } lines;
+  struct Host {
+    bool shown = false;              // of an update that came in after the first picture; false: of the next one
+    std::uint64_t frame = 0;         // displayed frame that showed it first
+    std::uint64_t video_frames = 0;  // that the update took
+    std::uint64_t used_cycles = 0;   // of the slowest unit, from retrace to last word, in host cycles
+    std::int64_t slack_cycles = 0;   // host cycles to the retrace that copies
+    double slack_us = 0.0;
+  } host;
+};
+
+// One displayed frame: its figures, not its pixels. Of interlaced video two fields are one frame: figures of triangles
+// are those of the first field's pose, operations and words those of both.
 struct FrameFigures {
   std::uint64_t frame = 0;
-  std::int64_t animation_frame = 0;  // the pose that it shows
-  std::uint64_t first_pixel_ps = 0;  // since the first displayed frame's retrace began
+  std::int64_t animation_frame = 0;       // the pose that it shows; of interlaced video, that of its even lines
+  std::int64_t last_animation_frame = 0;  // that of its odd lines; the same where the video is not interlaced
+  std::uint64_t first_pixel_ps = 0;       // since the first displayed frame's retrace began
   std::uint64_t last_pixel_ps = 0;
   std::uint64_t drawn = 0;   // triangles that have an area: facing + back_faces + outside
   std::uint64_t facing = 0;  // of them, those that face the viewer and are in view
@@ -118,8 +154,11 @@ struct FrameFigures {
   std::uint64_t fragments = 0;
   std::uint64_t host_flops = 0;  // all computation units; 0 where nothing was computed for this frame
   std::uint64_t words_sent = 0;
-  std::uint64_t words_ahead = 0;       // in use, of an update that the hosts have not finished: the picture is torn
-  std::uint64_t late_table_lines = 0;  // shaded from half-written tables
+  std::uint64_t words_ahead = 0;          // in use, of an update that the hosts have not finished: the picture is torn
+  std::uint64_t late_table_lines = 0;     // shaded from half-written tables
+  std::int64_t line_slack_cycles = 0;     // pixel clocks left at its worst line
+  std::int64_t retrace_slack_cycles = 0;  // and of its retrace
+  std::optional<double> host_slack_us;  // between the last host's last word and its retrace; none: no new coefficients
   std::vector<reference::ErrorFigures> errors;  // empty without reference
 };
 
@@ -145,9 +184,11 @@ struct Result {
   std::size_t columns = 0;
   std::size_t lines = 0;
   double obtained_refresh_hz = 0.0;
+  bool interlaced = false;
   Answer answer;
   std::vector<UnitFigures> units;
   std::vector<Budget> budgets;
+  Deadlines deadlines;
   std::vector<LinkFigures> links;
   std::vector<Memory> memories;
   std::vector<Logic> logic;

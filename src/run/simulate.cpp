@@ -4,15 +4,19 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "platforms/imogene/imogene.h"
 #include "src/base/digest.h"
 #include "src/config/writer.h"
+#include "src/frame/fields.h"
 #include "src/parameter/table.h"
 #include "src/reference/metrics.h"
 #include "src/reference/renderer.h"
+#include "src/run/deadlines.h"
 #include "src/run/imogene_budgets.h"
 #include "src/run/imogene_figures.h"
 #include "src/run/inputs.h"
@@ -21,63 +25,119 @@
 namespace rastertlm::run {
 namespace {
 
-// The exact pictures of the pose that is shown; a pose that is shown again is not rendered again.
+// The exact pictures of the pose that is shown; a pose that is shown again is not rendered again. Of interlaced video
+// they are woven of the poses of two fields, as the screen's picture is.
 class Exact {
  public:
-  Exact(const imogene::Machine& machine, const scene::Scene& scene) : scene_(scene) {
+  Exact(const imogene::Machine& machine, const scene::Scene& scene)
+      : scene_(scene), fields_(machine.video.interlaced ? 2 : 1) {
     options_.columns = static_cast<std::size_t>(machine.video.columns);
     options_.lines = static_cast<std::size_t>(machine.video.lines);
     options_.grids = imogene::snap_grids(machine);
     options_.specular_mean = machine.shading.specular_tables == 1;
   }
 
-  void render(const scene::Pose& pose) {
-    ideal_ = picture(pose, reference::Reference::ideal);
-    snapped_ = picture(pose, reference::Reference::snapped);
-    true_ = picture(pose, reference::Reference::true_model);
+  void show(const imogene::ShownFrame& shown) {
+    for (Picture& picture : pictures_) {
+      if (shown.updated) picture.of_pose = render(shown.pose, picture.kind);
+      if (fields_ > 1) frame::copy_lines(picture.of_pose, shown.field, fields_, picture.woven);
+    }
   }
   std::vector<reference::ErrorFigures> errors(const frame::Frame& shown) const {
-    return {reference::compare(shown, ideal_, "ideal"), reference::compare(shown, snapped_, "snapped"),
-            reference::compare(shown, true_, "true")};
+    std::vector<reference::ErrorFigures> errors;
+    for (const Picture& picture : pictures_)
+      errors.push_back(reference::compare(shown, on_screen(picture), reference::to_string(picture.kind)));
+    return errors;
   }
-  const frame::ExactFrame& ideal() const { return ideal_; }
+  const frame::ExactFrame& ideal() const { return on_screen(pictures_.front()); }
 
  private:
-  frame::ExactFrame picture(const scene::Pose& pose, reference::Reference kind) {
+  struct Picture {
+    reference::Reference kind;
+    frame::ExactFrame of_pose = {};
+    frame::ExactFrame woven = {};  // where the video is interlaced
+  };
+  const frame::ExactFrame& on_screen(const Picture& picture) const {
+    return fields_ > 1 ? picture.woven : picture.of_pose;
+  }
+  frame::ExactFrame render(const scene::Pose& pose, reference::Reference kind) {
     options_.kind = kind;
     return reference::render(scene_, pose, options_);
   }
   const scene::Scene& scene_;
+  std::size_t fields_;
   reference::RenderOptions options_;
-  frame::ExactFrame ideal_;
-  frame::ExactFrame snapped_;
-  frame::ExactFrame true_;
+  std::array<Picture, 3> pictures_{Picture{reference::Reference::ideal}, Picture{reference::Reference::snapped},
+                                   Picture{reference::Reference::true_model}};
 };
 
-FrameFigures figures_of(const imogene::ShownFrame& shown, const frame::Frame& pixels,
-                        const geometry::SnapGrids& grids) {
+// What a displayed frame is from its first field on.
+FrameFigures figures_of(const imogene::ShownFrame& shown, const geometry::SnapGrids& grids) {
   FrameFigures f;
   f.frame = shown.frame;
   f.animation_frame = shown.animation_frame;
   f.first_pixel_ps = shown.first_pixel_ps;
-  f.last_pixel_ps = shown.last_pixel_ps;
   f.facing = shown.triangles.drawn;
   f.drawn = shown.triangles.drawn + shown.triangles.back_faces + shown.triangles.outside;
   f.back_faces = shown.triangles.back_faces;
   f.degenerate = shown.triangles.degenerate;
   f.outside = shown.triangles.outside;
   f.pieces = shown.triangles.pieces;
-  f.pieces_dropped = shown.pieces_dropped;
   f.snap_fraction_bits = (shown.guarded ? grids.guarded : grids.on_screen).fraction_bits;
+  return f;
+}
+
+// What every field adds.
+void add_field(const imogene::ShownFrame& shown, FrameFigures& f) {
+  f.last_animation_frame = shown.animation_frame;
+  f.last_pixel_ps = shown.last_pixel_ps;
+  f.pieces_dropped = std::max(f.pieces_dropped, shown.pieces_dropped);
+  f.host_flops += shown.flops;
+  f.words_sent += shown.words;
+  f.words_ahead += shown.words_ahead;
+  f.late_table_lines += shown.late_table_lines;
+}
+
+void add_pixels(const frame::Frame& pixels, FrameFigures& f) {
   f.covered_pixels = static_cast<std::uint64_t>(
       std::count_if(pixels.object.begin(), pixels.object.end(), [](std::uint32_t object) { return object != 0; }));
   for (const std::uint32_t count : pixels.coverage) f.fragments += count;
-  f.host_flops = shown.flops;
-  f.words_sent = shown.words;
-  f.words_ahead = shown.words_ahead;
-  f.late_table_lines = shown.late_table_lines;
-  return f;
 }
+
+// Makes displayed frames, with their figures and errors, of what the machine shows field by field.
+class DisplayedFrames {
+ public:
+  DisplayedFrames(const Inputs& inputs, const Options& options, const FrameSink& sink,
+                  std::vector<FrameFigures>& frames)
+      : exact_(inputs.content->machine, inputs.content->scene),
+        reference_(options.reference),
+        sink_(sink),
+        frames_(frames) {}
+
+  void add(const imogene::Imogene& platform, const imogene::ShownFrame& shown, const frame::Frame& pixels) {
+    if (!meter_) meter_.emplace(platform);
+    if (shown.field == 0) figures_ = figures_of(shown, platform.grids());
+    add_field(shown, figures_);
+    meter_->add(shown, figures_);
+    if (reference_) exact_.show(shown);
+    if (shown.field + 1 < platform.timing().fields) return;
+    add_pixels(pixels, figures_);
+    if (reference_) figures_.errors = exact_.errors(pixels);
+    if (sink_) sink_({pixels, reference_ ? &exact_.ideal() : nullptr, figures_});
+    frames_.push_back(figures_);
+  }
+
+  // When all have been added.
+  Deadlines deadlines(imogene::Imogene& platform) { return meter_->close(platform); }
+
+ private:
+  Exact exact_;
+  bool reference_;
+  const FrameSink& sink_;
+  std::vector<FrameFigures>& frames_;
+  FrameFigures figures_;
+  std::optional<DeadlineMeter> meter_;
+};
 
 void add_warnings(imogene::Imogene& platform, const shading::DeferredShader& shader, Result& result) {
   result.warnings = shader.warnings();
@@ -122,17 +182,11 @@ Result simulate(const Inputs& inputs, const Options& options, const FrameSink& s
   std::chrono::steady_clock::duration outside{};  // spent in references and sinks, which is not the simulation's
 
   Result result;
-  Exact exact(machine, scene);
   std::unique_ptr<imogene::Imogene> platform;
+  DisplayedFrames displayed(inputs, options, sink, result.frames);
   const auto show = [&](const imogene::ShownFrame& shown, const frame::Frame& pixels) {
     const auto entered = std::chrono::steady_clock::now();
-    FrameFigures figures = figures_of(shown, pixels, platform->grids());
-    if (options.reference) {
-      if (shown.updated) exact.render(shown.pose);
-      figures.errors = exact.errors(pixels);
-    }
-    if (sink) sink({pixels, options.reference ? &exact.ideal() : nullptr, figures});
-    result.frames.push_back(std::move(figures));
+    displayed.add(*platform, shown, pixels);
     outside += std::chrono::steady_clock::now() - entered;
   };
   try {
@@ -152,11 +206,13 @@ Result simulate(const Inputs& inputs, const Options& options, const FrameSink& s
   result.columns = static_cast<std::size_t>(machine.video.columns);
   result.lines = static_cast<std::size_t>(machine.video.lines);
   result.obtained_refresh_hz = platform->timing().obtained_refresh_hz();
+  result.interlaced = machine.video.interlaced;
   result.units = unit_figures(*platform);
   result.budgets = imogene_budgets(*platform);
   result.answer = imogene_answer(*platform, result.budgets);
   result.answer.torn_frames = static_cast<std::uint64_t>(
       std::count_if(result.frames.begin(), result.frames.end(), [](const auto& f) { return f.words_ahead > 0; }));
+  result.deadlines = displayed.deadlines(*platform);
   result.links = link_figures(*platform);
   result.memories = memory_figures(*platform);
   result.logic = logic_figures(*platform);
@@ -166,7 +222,7 @@ Result simulate(const Inputs& inputs, const Options& options, const FrameSink& s
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start - outside).count();
     result.host.wall_seconds = seconds;
     result.host.simulated_clocks_per_second =
-        static_cast<double>(options.frames * platform->timing().frame.count()) / seconds;
+        static_cast<double>(options.frames * platform->timing().fields * platform->timing().frame.count()) / seconds;
     result.host.peak_memory_bytes = peak_memory_bytes();
   }
   return result;

@@ -122,6 +122,63 @@ TEST_F(BadInputTest, ColumnsAndLines) {
       refused({key}, {"--set", std::string(key) + '=' + value});
 }
 
+constexpr const char* kVideo = "schema = 1\nplatform = \"imogene\"\n[video]\n";
+
+TEST_F(BadInputTest, RatesThatAreNegativeZeroOrNoNumber) {
+  const std::vector<std::pair<const char*, const char*>> keys{{"refresh_hz", "0.01"}, {"pixel_clock_ns", "0.1"}};
+  for (const auto& [key, least] : keys)
+    for (const char* value : {"-50.0", "0.0", "-0.0", "nan", "inf"}) {
+      write("machine.toml", std::string(kVideo) + key + " = " + value + "\n");
+      const bool is_number = value[0] != 'n' && value[0] != 'i';
+      refused({std::string("machine.toml:4: video.") + key + ": ", is_number ? least : "not a finite number"});
+    }
+  write("machine.toml", std::string(kVideo) + "vertical_retrace_us = -1.0\n");
+  refused({"machine.toml:4: video.vertical_retrace_us: ", "-1"});
+  write("machine.toml",
+        "schema = 1\nplatform = \"imogene\"\n[object_processor]\nadder_ns_per_bit = -4.0\nword_bits = 0\n");
+  refused({"machine.toml:4: object_processor.adder_ns_per_bit: ", "machine.toml:5: object_processor.word_bits: ", "8"});
+}
+
+TEST_F(BadInputTest, ARetraceLongerThanTheFrame) {
+  write("machine.toml", std::string(kVideo) + "columns = 64\nlines = 48\nvertical_retrace_us = 20001.0\n");
+  refused(
+      {"machine.toml:6: video.vertical_retrace_us: a retrace of 20001 us (333350 pixel clocks) is not shorter than "
+       "the frame of 333333 pixel clocks at 50 Hz"});
+  // The paper's retrace at a rate that leaves no time for it.
+  refused({"video.vertical_retrace_us: a retrace of 600 us"},
+          {"--set", "video.refresh_hz=1000", "--set", "video.vertical_retrace_us=600", "--set",
+           "video.pixel_clock_ns=1e6"});
+}
+
+TEST_F(BadInputTest, APixelClockThatLeavesNoBlanking) {
+  write("machine.toml", std::string(kVideo) + "pixel_clock_ns = 75.0\n");
+  refused(
+      {"machine.toml:4: video.pixel_clock_ns: a pixel clock of 75 ns leaves 505 clocks for a line of 512 pixels, and "
+       "no horizontal blanking; at most 73.86 ns would leave some"});
+  // Some blanking, and not enough to start a line: 523 - 512 clocks for nine, and for twice nine.
+  refused({"video.pixel_clock_ns: the line start takes 18 pixel clocks (interlaced: two lines' work), and horizontal "
+           "blanking has 11"},
+          {"--set", "video.pixel_clock_ns=60", "--set", "video.refresh_hz=60", "--set", "video.interlaced=true",
+           "--set", "video.lines=1024"});
+}
+
+TEST_F(BadInputTest, AnInterlacedScreenOfOddLines) {
+  write("machine.toml", std::string(kVideo) + "interlaced = true\nlines = 511\n");
+  refused({"machine.toml:5: video.lines: is 511; an interlaced picture has as many odd lines as even ones"});
+  write("machine.toml", std::string(kVideo) + "interlaced = 1\n");
+  refused({"machine.toml:4: video.interlaced: ", "true or false"});
+}
+
+TEST_F(BadInputTest, UnknownPresetsNameTheKnownOnes) {
+  write("machine.toml", std::string(kVideo) + "preset = \"vga\"\n[object_processor]\npreset = \"fpga\"\n");
+  refused(
+      {"machine.toml:4: video.preset: unknown preset 'vga'; known presets of 'video': '1024_interlaced_50', '512_50', "
+       "'512_60', '720p_60', 'vga_60'",
+       "machine.toml:6: object_processor.preset: unknown preset 'fpga'; known presets of 'object_processor': "
+       "'small_fpga', 'standard_cell_1991', 'xcv300_6'"});
+  refused({"--set: video.preset: unknown preset 'pal'"}, {"--set", "video.preset=pal"});
+}
+
 TEST_F(BadInputTest, EverythingThatIsWrongIsSaidAtOnce) {
   write("machine.toml", "schema = 1\nplatform = \"imogene\"\n[video]\ncolumns = 0\nlines = 0\n");
   write("scene.toml", one_triangle() + "[camera]\nvertical_fov_deg = 900.0\nfra = 3.0\n");
@@ -149,8 +206,8 @@ TEST_F(BadInputTest, RatesOfAHostThatAreNotAboveZero) {
 
 TEST_F(BadInputTest, PresetThatIsUnknownNamesThoseThatAre) {
   write("machine.toml", "schema = 1\nplatform = \"imogene\"\n[host]\npreset = \"t900\"\n");
-  refused({"machine.toml:4: host.preset: unknown preset 't900'", "'soft_core', 't800_20', 't800_30', 't805_30', 't9000'",
-           "nearest: 't9000'"});
+  refused({"machine.toml:4: host.preset: unknown preset 't900'",
+           "'soft_core', 't800_20', 't800_30', 't805_30', 't9000'", "nearest: 't9000'"});
 }
 
 TEST_F(BadInputTest, InstructionsOfAHostThatIsChargedAtItsRate) {

@@ -139,6 +139,35 @@ TEST(ElementaryProcessor, SecondFrameStartsFromTheLoadingRam) {
   }
 }
 
+// Interlaced video: the line start runs once for every line that is passed, with the host's words of any other screen.
+TEST(ElementaryProcessor, SkipsLinesByStartingThemTwice) {
+  std::mt19937 random(4);
+  for (const Widths widths : kWidths) {
+    const ObjectProcessorParameters parameters = with(widths);
+    const LinearWords words =
+        random_words(random, static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(widths.word))));
+    const Microprogram line_start = line_start_program(parameters.slices());
+    ElementaryProcessor processor(parameters);
+    for (unsigned address = 0; address < 3; ++address)
+      processor.write_loading(address, address == 0 ? words.a : address == 1 ? words.b : words.c);
+    for (std::uint32_t field = 0; field < 2; ++field) {
+      processor.run(frame_start_program());
+      for (std::uint32_t line = field; line < 12; line += 2) {
+        std::size_t cycles = 0;
+        for (std::uint32_t passed = line == 0 ? 1 : 2; passed > 0; --passed) {
+          processor.run(line_start);
+          cycles += line_start.size();
+        }
+        EXPECT_EQ(cycles, line_start_cycles(parameters.slices(), line == 0 ? 1 : 2).count());
+        for (std::uint32_t column = 0; column < 9; ++column) {
+          ASSERT_EQ(processor.output(), exact(words, line, column, widths.word)) << line << ' ' << column;
+          processor.step(pixel_instruction(parameters.slices()));
+        }
+      }
+    }
+  }
+}
+
 TEST(Microprogram, PublishedCycles) {
   EXPECT_EQ(frame_start_program().size(), 8U);
   EXPECT_EQ(line_start_program(2).size(), 9U);

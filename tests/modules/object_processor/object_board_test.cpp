@@ -263,6 +263,28 @@ RC_GTEST_PROP(ObjectBoard, FollowsChangesAndJumps, (std::uint32_t seed)) {
   }
 }
 
+// The even lines, then the odd ones, as interlaced video takes them; and every third, whose steps pass whole triangles.
+RC_GTEST_PROP(ObjectBoard, TakesLinesInFields, (std::uint32_t seed)) {
+  Source source(seed);
+  const Machine machine = source.machine(CarryClock::clock1);
+  ObjectBoard in_order = loaded_board(machine);
+  frame::FragmentLine out;
+  out.resize(machine.columns);
+  for (std::uint32_t line = 0; line < machine.lines; ++line) in_order.evaluate_line(line, out);
+  const std::vector<Pixel> picture = stepped_picture(machine);
+  for (const std::uint32_t fields : {2U, 3U}) {
+    ObjectBoard board = loaded_board(machine);
+    for (std::uint32_t field = 0; field < fields; ++field)
+      for (std::uint32_t line = field; line < machine.lines; line += fields) {
+        out.clear();
+        board.evaluate_line(line, out);
+        compare_line(machine, picture, line, out);
+      }
+    RC_ASSERT(board.counters().processors_visited == in_order.counters().processors_visited);
+    RC_ASSERT(board.counters().lines_evaluated == in_order.counters().lines_evaluated);
+  }
+}
+
 // A whole-screen triangle: edges that are 0 everywhere.
 TriangleWords full_screen(std::uint32_t depth, std::uint32_t material) {
   TriangleWords triangle;

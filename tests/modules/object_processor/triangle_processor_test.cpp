@@ -92,7 +92,7 @@ TEST(ObjectProcessorParameters, AreDeclaredOnceAndChecked) {
     EXPECT_FALSE(declared.about.description.empty()) << declared.path;
     EXPECT_FALSE(declared.about.moves.empty()) << declared.path;
   }
-  EXPECT_EQ(paths.size(), 10U);
+  EXPECT_EQ(paths.size(), 11U);
   table.find("ep1.carry_clock")->set(std::string("clock2"));
   EXPECT_EQ(parameters.carry_clock, CarryClock::clock2);
 

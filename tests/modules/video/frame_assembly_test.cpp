@@ -61,9 +61,30 @@ TEST(FrameAssembly, PutsLinesWhereTheyBelong) {
   for (std::size_t line = 0; line < kLines; ++line)
     for (std::size_t i = 0; i < 3 * kColumns; ++i)
       EXPECT_EQ(frame.frame().rgb[3 * kColumns * line + i], 20 * line + i) << line << " " << i;
-  EXPECT_FALSE(frame.complete(0));
-  EXPECT_FALSE(frame.complete(1));
-  EXPECT_TRUE(frame.complete(2));
+  EXPECT_FALSE(frame.ends_field(0));
+  EXPECT_FALSE(frame.ends_field(1));
+  EXPECT_TRUE(frame.ends_field(2));
+  EXPECT_EQ(frame.field(2), 0U);
+}
+
+// Even lines, then odd ones: a field ends with the last line of its parity, and leaves the other's lines as they were.
+TEST(FrameAssembly, WeavesTwoFields) {
+  FrameAssembly frame({.columns = kColumns, .lines = 4, .fields = 2});
+  frame::FragmentLine nothing;
+  nothing.resize(kColumns);
+  const std::vector<std::size_t> order{0, 2, 1, 3};
+  for (std::size_t pass = 0; pass < 2; ++pass)
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const std::size_t line = order[i];
+      frame.add_line(line, levels(static_cast<std::uint8_t>(40 * pass + 10 * line)), nothing);
+      EXPECT_EQ(frame.ends_field(line), i == 1 || i == 3) << line;
+      EXPECT_EQ(frame.field(line), i / 2) << line;
+      if (pass == 1 && i == 1) {
+        EXPECT_EQ(frame.frame().rgb[3 * kColumns * 1], 10);  // of the first frame
+        EXPECT_EQ(frame.frame().rgb[3 * kColumns * 2], 60);
+      }
+    }
+  for (std::size_t line = 0; line < 4; ++line) EXPECT_EQ(frame.frame().rgb[3 * kColumns * line], 40 + 10 * line);
 }
 
 TEST(FrameAssembly, ObserversSeeObjectsAndBackground) {

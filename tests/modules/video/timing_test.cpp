@@ -68,6 +68,67 @@ TEST(VideoTiming, Vga) {
   EXPECT_EQ(t.horizontal_blanking, Cycles(160));
 }
 
+// 25.2 MHz to the femtosecond: 800 x 525 clocks at 60 Hz.
+TEST(VideoTiming, VgaAtSixtyHertz) {
+  const Timing t = timing(screen(640, 480, 60, 39.682540, 1428.5714));
+  EXPECT_EQ(t.frame, Cycles(800 * 525));
+  EXPECT_EQ(t.line, Cycles(800));
+  EXPECT_EQ(t.vertical_retrace, Cycles(45 * 800));
+  EXPECT_EQ(t.horizontal_blanking, Cycles(160));
+  EXPECT_NEAR(t.obtained_refresh_hz(), 60.0, 1e-6);
+}
+
+// CEA-861: 74.25 MHz, 1650 clocks a line and 750 lines a frame, 30 of them not shown.
+TEST(VideoTiming, HighDefinitionAtSixtyHertz) {
+  const Timing t = timing(screen(1280, 720, 60, 13.468013, 666.66667));
+  EXPECT_EQ(t.frame, Cycles(1650 * 750));
+  EXPECT_EQ(t.line, Cycles(1650));
+  EXPECT_EQ(t.vertical_retrace, Cycles(30 * 1650));
+  EXPECT_EQ(t.horizontal_blanking, Cycles(370));
+  EXPECT_NEAR(t.obtained_refresh_hz(), 60.0, 1e-5);
+}
+
+// The paper's screen at 60 Hz. 60 ns: 277,778 = 512 x 523 + 10,000 + 2; 50 ns: 333,333 = 512 x 627 + 12,000 + 309.
+TEST(VideoTiming, ThePapersScreenAtSixtyHertz) {
+  const Timing slow = timing(screen(512, 512, 60, 60, 600));
+  EXPECT_EQ(slow.frame, Cycles(277'778));
+  EXPECT_EQ(slow.vertical_retrace, Cycles(10'002));
+  EXPECT_EQ(slow.horizontal_blanking, Cycles(11));
+  const Timing quick = timing(screen(512, 512, 60, 50, 600));
+  EXPECT_EQ(quick.frame, Cycles(333'333));
+  EXPECT_EQ(quick.vertical_retrace, Cycles(12'309));
+  EXPECT_EQ(quick.horizontal_blanking, Cycles(115));
+}
+
+VideoParameters interlaced(VideoParameters parameters) {
+  parameters.interlaced = true;
+  return parameters;
+}
+
+// 20 ms of 29.25 ns: a field of 683,761 = 512 x 1295 + 20,513 + 208 shows every other of 1024 lines.
+TEST(VideoTiming, ThePapersInterlacedScreen) {
+  const Timing t = timing(interlaced(screen(1024, 1024, 50, 29.25, 600)));
+  EXPECT_EQ(t.fields, 2U);
+  EXPECT_EQ(t.frame, Cycles(683'761));
+  EXPECT_EQ(t.line, Cycles(1295));
+  EXPECT_EQ(t.vertical_retrace, Cycles(20'721));
+  EXPECT_EQ(t.horizontal_blanking, Cycles(271));
+  for (const std::size_t line : {0U, 1U}) EXPECT_EQ(t.line_start(line), Cycles(20'721));
+  for (const std::size_t line : {2U, 3U}) EXPECT_EQ(t.line_start(line), Cycles(20'721 + 1295));
+  for (const std::size_t line : {1022U, 1023U}) EXPECT_EQ(t.line_start(line), Cycles(683'761 - 1295));
+  // The sums of a line go on by as many lines as are passed: from the line before the first one.
+  EXPECT_EQ(t.lines_advanced(0), 1U);
+  for (const std::size_t line : {1U, 2U, 1023U}) EXPECT_EQ(t.lines_advanced(line), 2U);
+}
+
+TEST(VideoTiming, RefusesAnInterlacedScreenOfOddLines) {
+  EXPECT_EQ(
+      refusal(interlaced(screen(512, 511, 50, 60, 600))),
+      "video.lines: is 511; an interlaced picture has as many odd lines as even ones, and an even number of lines");
+  EXPECT_EQ(refusal(screen(512, 511, 50, 60, 600)), "accepted");
+  EXPECT_EQ(refusal(interlaced(screen(512, 512, 50, 60, 600))), "accepted");
+}
+
 TEST(VideoTiming, RefusesARetraceThatIsTheWholeFrame) {
   EXPECT_EQ(refusal(screen(512, 512, 50, 60, 20'000)),
             "video.vertical_retrace_us: a retrace of 20000 us (333333 pixel clocks) is not shorter than the frame of "
@@ -108,12 +169,16 @@ RC_GTEST_PROP(VideoTiming, ProposesAClockThatWouldDo, ()) {
   const double retrace = *rc::gen::inRange(0, 5000);
   const double shown_ns = 1e9 / refresh - 1e3 * retrace;
   const double slow = shown_ns / static_cast<double>(lines * columns) * (1.0 + *rc::gen::inRange(1, 1000) / 1000.0);
-  const std::string text = refusal(screen(columns, lines, refresh, slow, retrace));
+  VideoParameters parameters = screen(columns, lines, refresh, slow, retrace);
+  parameters.interlaced = *rc::gen::arbitrary<bool>();
+  if (parameters.interlaced) parameters.lines *= 2;  // as many in a field
+  const std::string text = refusal(parameters);
   const std::string before = "at most ";
   const std::size_t at = text.find(before);
   RC_ASSERT(at != std::string::npos);
   const double proposed = std::stod(text.substr(at + before.size()));
-  RC_ASSERT(timing(screen(columns, lines, refresh, proposed, retrace)).horizontal_blanking >= Cycles(1));
+  parameters.pixel_clock_ns = proposed;
+  RC_ASSERT(timing(parameters).horizontal_blanking >= Cycles(1));
   const double clocks = static_cast<double>(lines * (columns + 1));
   RC_ASSERT((proposed + 0.001) * (clocks + 2) > shown_ns);
 }
@@ -124,9 +189,12 @@ RC_GTEST_PROP(VideoTiming, EveryFrameAddsUp, ()) {
   const double refresh = *rc::gen::inRange(100, 20'000) / 100.0;
   const double period = *rc::gen::inRange(100, 100'000) / 1000.0;
   const double retrace = *rc::gen::inRange(0, 100'000) / 100.0;
+  VideoParameters parameters = screen(columns, lines, refresh, period, retrace);
+  parameters.interlaced = *rc::gen::arbitrary<bool>();
+  if (parameters.interlaced) parameters.lines *= 2;  // as many in a field
   Timing t;
   try {
-    t = timing(screen(columns, lines, refresh, period, retrace));
+    t = timing(parameters);
   } catch (const InputError&) {
     RC_DISCARD("refused");
   }
@@ -141,7 +209,7 @@ RC_GTEST_PROP(VideoTiming, EveryFrameAddsUp, ()) {
   const long double left_over = static_cast<long double>(t.vertical_retrace.count()) - asked;
   RC_ASSERT(left_over > -0.5L - 1e-6L);
   RC_ASSERT(left_over < static_cast<long double>(lines) + 0.5L);
-  RC_ASSERT(t.line_start(count) == t.frame);
+  RC_ASSERT(t.line_start(count * t.fields) == t.frame);
 }
 
 }  // namespace

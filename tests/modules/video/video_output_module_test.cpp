@@ -40,8 +40,9 @@ TEST(VideoOutputModule, HandsOnWholeFrames) {
   };
   std::vector<Shown> shown;
   VideoOutputModule output("video_output", {.columns = 2, .lines = 2},
-                           [&](std::uint64_t frame, const frame::Frame& pixels, std::uint64_t last_pixel_ps) {
-                             shown.push_back({frame, pixels.rgb.front(), pixels.rgb.back(), last_pixel_ps});
+                           [&](std::uint64_t frame, std::size_t field, const frame::Frame& pixels, std::uint64_t ps) {
+                             EXPECT_EQ(field, 0U);
+                             shown.push_back({frame, pixels.rgb.front(), pixels.rgb.back(), ps});
                            });
   Source source("source");
   source.out.bind(output.in);
@@ -63,6 +64,39 @@ TEST(VideoOutputModule, HandsOnWholeFrames) {
   EXPECT_EQ(shown[1].first, 13);
   EXPECT_EQ(shown[1].picoseconds, 14'000U);
   EXPECT_EQ(output.lines_shown(), 4U);
+}
+
+// Of interlaced video each field is handed on, with what the other one last was.
+TEST(VideoOutputModule, HandsOnEachField) {
+  struct Shown {
+    std::uint64_t frame;
+    std::size_t field;
+    std::uint8_t even;
+    std::uint8_t odd;
+  };
+  std::vector<Shown> shown;
+  VideoOutputModule output("video_output", {.columns = 2, .lines = 4, .fields = 2},
+                           [&](std::uint64_t frame, std::size_t field, const frame::Frame& pixels, std::uint64_t) {
+                             shown.push_back({frame, field, pixels.rgb[2 * 6], pixels.rgb[3 * 6]});
+                           });
+  Source source("source");
+  source.out.bind(output.in);
+  stream::Script script("script", [&] {
+    for (std::uint64_t frame = 0; frame < 2; ++frame)
+      for (const std::size_t line : {0U, 2U, 1U, 3U})
+        source.send(frame, line, static_cast<std::uint8_t>(10 * (frame + 1) + line), sc_core::SC_ZERO_TIME);
+  });
+  stream::simulate();
+  ASSERT_EQ(shown.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(shown[i].frame, i / 2) << i;
+    EXPECT_EQ(shown[i].field, i % 2) << i;
+  }
+  EXPECT_EQ(shown[0].even, 12);
+  EXPECT_EQ(shown[1].odd, 13);
+  EXPECT_EQ(shown[2].even, 22);
+  EXPECT_EQ(shown[2].odd, 13);  // not yet come
+  EXPECT_EQ(shown[3].odd, 23);
 }
 
 }  // namespace

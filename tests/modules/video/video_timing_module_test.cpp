@@ -53,8 +53,8 @@ class Listeners : public sc_core::sc_module {
  private:
   void hear(int listener, SyncPayload& payload, sc_core::sc_time& delay) {
     EXPECT_FALSE(payload.switch_tables);  // that is the loader's to say
-    heard.push_back({listener, payload.kind == SyncPayload::Kind::retrace, payload.copy, payload.swap, payload.frame, payload.line,
-                     stream::picoseconds_now() + delay.value()});
+    heard.push_back({listener, payload.kind == SyncPayload::Kind::retrace, payload.copy, payload.swap, payload.frame,
+                     payload.line, stream::picoseconds_now() + delay.value()});
     delay += sc_core::sc_time(7, sc_core::SC_MS);  // is nobody else's delay
   }
 };
@@ -70,8 +70,9 @@ struct Screen {
   std::deque<stream::Script> scripts;
 
   Screen(std::uint64_t frames, std::uint64_t patience,
-         VideoTimingModule::Copy copy = VideoTimingModule::Copy::when_ready)
-      : video("video_timing", timing_of_test(), kLines, 2, 2, frames, patience, copy) {
+         VideoTimingModule::Copy copy = VideoTimingModule::Copy::when_ready, const Timing& timing = timing_of_test(),
+         std::size_t lines = kLines)
+      : video("video_timing", timing, lines, 2, 2, frames, patience, copy) {
     video.ready[0].bind(unit_0);
     video.ready[1].bind(unit_1);
     video.tables_ready.bind(tables);
@@ -119,7 +120,7 @@ TEST(VideoTimingModule, SaysWhenLinesBeginToEveryListener) {
         }
       }
   EXPECT_EQ(screen.video.updates(), 2U);
-  EXPECT_EQ(screen.video.displayed_frame(), 2U);
+  EXPECT_EQ(screen.video.video_frames_shown(), 2U);
   EXPECT_EQ(sc_core::sc_time_stamp().value(), 2 * kFramePs);
 }
 
@@ -218,6 +219,71 @@ TEST(VideoTimingModule, GivesUpOnHostsThatNeverFinish) {
     EXPECT_THAT(error.what(), testing::HasSubstr("the hosts have not finished a first frame"));
   }
   EXPECT_EQ(sc_core::sc_time_stamp().value(), 5 * kFramePs);
+}
+
+// Six lines of which a field has three: its 10,000 clocks are those of the screen above.
+Timing interlaced_timing() {
+  VideoParameters parameters;
+  parameters.columns = 100;
+  parameters.lines = 2 * kLines;
+  parameters.refresh_hz = 1000;
+  parameters.pixel_clock_ns = 100;
+  parameters.vertical_retrace_us = 100;
+  parameters.interlaced = true;
+  return timing(parameters);
+}
+
+TEST(VideoTimingModule, ShowsEvenLinesThenOddOnes) {
+  Screen screen(2, 10, VideoTimingModule::Copy::when_ready, interlaced_timing(), 2 * kLines);
+  screen.set_all(true);
+  stream::simulate();
+  ASSERT_EQ(screen.listeners.heard.size(), 2 * 2 * 2 * (1 + kLines));
+  std::size_t i = 0;
+  for (std::uint64_t field = 0; field < 4; ++field)
+    for (std::size_t event = 0; event <= kLines; ++event)
+      for (int listener = 0; listener < 2; ++listener) {
+        const Heard& one = screen.listeners.heard[i++];
+        EXPECT_EQ(one.frame, field / 2);
+        EXPECT_EQ(one.retrace, event == 0);
+        EXPECT_EQ(one.copy, event == 0);  // each field's retrace may copy
+        const std::uint64_t clocks = event == 0 ? 0 : 1000 + 3000 * (event - 1);
+        EXPECT_EQ(one.picoseconds, field * kFramePs + clocks * 100'000);
+        if (event > 0) {
+          EXPECT_EQ(one.line, 2 * (event - 1) + field % 2);
+        }
+      }
+  EXPECT_EQ(screen.video.updates(), 4U);
+  EXPECT_EQ(screen.video.video_frames_shown(), 4U);
+  EXPECT_EQ(sc_core::sc_time_stamp().value(), 4 * kFramePs);
+}
+
+// Ready in time for a field of odd lines: the first picture begins with the even ones after it.
+TEST(VideoTimingModule, TheFirstPictureBeginsWithEvenLines) {
+  Screen screen(1, 10, VideoTimingModule::Copy::when_ready, interlaced_timing(), 2 * kLines);
+  screen.scripts.emplace_back("script", [&] {
+    sc_core::wait(stream::to_time(kFramePs / 2));
+    screen.set_all(true);
+  });
+  stream::simulate();
+  EXPECT_THAT(screen.retraces(), ElementsAre(std::tuple(0, 0, false), std::tuple(1, 0, false), std::tuple(2, 0, true),
+                                             std::tuple(3, 0, true)));
+  EXPECT_EQ(screen.video.frames_before_first(), 2U);
+  EXPECT_THAT(screen.swaps, ElementsAre(2 * kFramePs, 3 * kFramePs));
+}
+
+// A late host: its coefficients may come in with the odd lines.
+TEST(VideoTimingModule, AnUpdateMayComeInWithTheOddLines) {
+  Screen screen(2, 10, VideoTimingModule::Copy::when_ready, interlaced_timing(), 2 * kLines);
+  screen.scripts.emplace_back("script", [&] {
+    screen.set_all(true);
+    sc_core::wait(screen.video.swapped);
+    screen.unit_0.write(false);
+    sc_core::wait(stream::to_time(2 * kFramePs + 1));
+    screen.unit_0.write(true);
+  });
+  stream::simulate();
+  EXPECT_THAT(screen.retraces(), ElementsAre(std::tuple(0, 0, true), std::tuple(1, 0, false), std::tuple(2, 1, false),
+                                             std::tuple(3, 1, true)));
 }
 
 // A clock whose frame is no whole number of picoseconds: frames are counted from the start, so nothing drifts.

@@ -88,6 +88,7 @@ positions = [[-300.0, 5.0, -40.0], [200.0, 4.0, -50.0], [20.0, 6.0, 400.0]]
     std::string text;
     for (run::FrameFigures& frame : result.frames) {
       frame.first_pixel_ps = frame.last_pixel_ps = 0;
+      frame.retrace_slack_cycles = 0;
       run::Result alone;
       alone.frames.push_back(frame);
       text += report::json_text({alone, false});

@@ -27,6 +27,7 @@ inline run::FrameFigures example_frame(std::uint64_t frame) {
   run::FrameFigures f;
   f.frame = frame;
   f.animation_frame = static_cast<std::int64_t>(frame) - 1;
+  f.last_animation_frame = static_cast<std::int64_t>(frame) + 2;
   f.first_pixel_ps = 10'000'000'000 + frame;
   f.last_pixel_ps = 19'999'980'000;
   f.drawn = 885;
@@ -42,6 +43,9 @@ inline run::FrameFigures example_frame(std::uint64_t frame) {
   f.host_flops = 123'456;
   f.words_sent = 19'712;
   f.late_table_lines = 11;
+  f.line_slack_cycles = -12;
+  f.retrace_slack_cycles = 10'253;
+  f.host_slack_us = 1960.98345;
   f.errors = {example_error("ideal", 9), example_error("snapped", 8), example_error("true", 17)};
   return f;
 }
@@ -60,6 +64,16 @@ inline run::Answer example_answer() {
   return a;
 }
 
+inline run::Deadlines example_deadlines() {
+  run::Deadlines d;
+  d.retrace = {10'261, 8, 17, 1, 10'253, 615.18, "frame start"};
+  d.lines.available_cycles = 119;
+  d.lines.worst = {1, 347, 229'337, 229'349, -12, -0.72, "table load"};
+  d.lines.slack_cycles = {10'363, 110, -12};
+  d.host = {true, 1, 2, 360'780, 39'219, 1960.98345};
+  return d;
+}
+
 // Sustained at 512x512, 50 Hz, with two frames.
 inline run::Result example_result() {
   run::Result r;
@@ -74,6 +88,7 @@ inline run::Result example_result() {
   r.units = {{"shading", 1e9 / 60.0, 666'666, 524'288, 100'000, 42'000, 378}};
   r.budgets = {{"line_start", 21.0, 119.0, "cycles", true, true, "004, section 4.2", "object_processor.slice_bits"},
                {"dot_table.load_68000", 650.25, 600.0, "us", false, false, "004, table 5.3", "loader.kind"}};
+  r.deadlines = example_deadlines();
   r.links = {{"boards to decision unit", 32, 33'333'333.3333, 18'446'744'073'709'551'615U, 133'333'333.333,
               27'340'000.0, 30'000'000.0, 0.20505}};
   r.memories = {{"specular table", 16, 4096, 8}};

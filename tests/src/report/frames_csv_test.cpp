@@ -52,6 +52,10 @@ TEST(FramesCsv, HasARowAFrameWithEveryFigure) {
                                                                   {"snap_fraction_bits", "5"},
                                                                   {"host_flop", "123456"},
                                                                   {"sent_words", "19712"},
+                                                                  {"last_animation_frame", "3"},
+                                                                  {"line_slack_cycles", "-12"},
+                                                                  {"retrace_slack_cycles", "10253"},
+                                                                  {"host_slack_us", "1960.98"},
                                                                   {"ideal_max_level", "9"},
                                                                   {"snapped_max_level", "8"},
                                                                   {"true_max_level", "17"},
@@ -70,7 +74,9 @@ TEST(FramesCsv, LeavesEmptyWhatWasNotMeasured) {
   run::Result result = example_result();
   result.frames[0].errors.pop_back();
   result.frames[0].errors[0].psnr_db.reset();
+  result.frames[0].host_slack_us.reset();
   const std::vector<Row> rows = rows_of(frames_csv(result));
+  EXPECT_EQ(rows[0].at("host_slack_us"), "");
   EXPECT_EQ(rows[0].at("true_max_level"), "");
   EXPECT_EQ(rows[0].at("ideal_psnr_db"), "");
   EXPECT_EQ(rows[1].at("true_max_level"), "17");

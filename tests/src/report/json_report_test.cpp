@@ -39,8 +39,8 @@ void add_paths(const Json& json, const std::string& path, std::set<std::string>&
 TEST(JsonReport, KeepsTheKeysOfSchema1InTheirOrder) {
   const Json json = example_json();
   EXPECT_EQ(keys_of(json), (std::vector<std::string>{"schema", "platform", "config_digest", "scene_digest", "frames",
-                                                     "video", "answer", "units", "budgets", "links", "memories",
-                                                     "logic", "images", "modelled", "warnings", "host"}));
+                                                     "video", "answer", "units", "budgets", "deadlines", "links",
+                                                     "memories", "logic", "images", "modelled", "warnings", "host"}));
   const auto has = [](const Json& object, const std::vector<std::string>& keys) {
     for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
   };
@@ -49,6 +49,12 @@ TEST(JsonReport, KeepsTheKeysOfSchema1InTheirOrder) {
   has(json["answer"]["bottleneck"], {"unit", "resource", "utilisation"});
   has(json["units"][0], {"name", "clock_hz", "cycles", "busy", "starved", "blocked", "idle"});
   has(json["budgets"][0], {"name", "used", "available", "unit", "fits", "applies", "source"});
+  has(json["deadlines"], {"retrace", "lines", "host"});
+  has(json["deadlines"]["lines"], {"worst", "slack_cycles"});
+  has(json["deadlines"]["lines"]["worst"], {"frame", "line", "slack_cycles", "needs"});
+  EXPECT_EQ(json["deadlines"]["lines"]["slack_cycles"], Json::parse("[10363, 110, -12]"));
+  EXPECT_EQ(json["deadlines"]["lines"]["worst"]["slack_cycles"], -12);
+  EXPECT_EQ(json["deadlines"]["host"]["slack_us"], 1960.98);
   has(json["links"][0], {"name", "bits", "clock_hz", "bytes", "peak_bytes_per_s", "achieved_bytes_per_s",
                          "active_bytes_per_s", "utilisation"});
   has(json["memories"][0], {"name", "instances", "words", "bits_per_word", "total_bits"});
@@ -125,6 +131,7 @@ TEST(JsonReport, ReadsBackWhatItWrote) {
     EXPECT_EQ(contents.result.frames[1].errors[2].reference, "true");
     EXPECT_EQ(contents.result.modelled.fragments_hidden, 9'231U);
     EXPECT_EQ(contents.result.answer.limits, example_result().answer.limits);
+    EXPECT_EQ(contents.result.deadlines.lines.slack_cycles, example_result().deadlines.lines.slack_cycles);
   }
 }
 
@@ -166,10 +173,12 @@ TEST(JsonReport, NamesEverythingThatIsWrongInAFile) {
   json["answer"].erase("sustained");
   json["units"][0]["busy"] = -1;
   json["links"] = 3;
+  json["deadlines"]["lines"]["slack_cycles"][1] = 1.5;
   const std::string message = message_of(json.dump());
   EXPECT_NE(message.find("DIR/report.json: answer.sustained: is missing"), std::string::npos) << message;
   EXPECT_NE(message.find("units[0].busy: is not an integer"), std::string::npos) << message;
   EXPECT_NE(message.find("links: is not a list"), std::string::npos) << message;
+  EXPECT_NE(message.find("deadlines.lines.slack_cycles: is not a list of integers"), std::string::npos) << message;
 }
 
 TEST(JsonReport, RefusesAnotherSchemaAndWhatIsNoReport) {

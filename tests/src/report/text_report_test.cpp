@@ -77,6 +77,29 @@ TEST(TextReport, TellsBudgetsThatApplyFromThoseThatDoNot) {
   EXPECT_TRUE(holds(compared, "(NO)")) << compared;
 }
 
+TEST(TextReport, NamesTheWorstLineAndItsSlack) {
+  const std::string text = text_report({example_result(), false});
+  const auto expect_parts = [&](const std::string& name, const std::vector<const char*>& parts) {
+    const std::string line = line_with(text, name);
+    for (const char* part : parts) EXPECT_TRUE(holds(line, part)) << part << " in " << line;
+  };
+  EXPECT_TRUE(holds(text, "Deadlines\n========="));
+  expect_parts("  scan line  ", {"frame 1, line 347", "229,337  229,349", "-12", "-0.72", "table load"});
+  expect_parts("  vertical retrace  ", {"frame 1", "10,261        8", "10,253", "615.18", "frame start"});
+  expect_parts("  hosts' update  ", {"frame 1", "399,999", "39,219", "1960.98", "host cycles of 2 video frames"});
+  run::Result still = example_result();
+  still.deadlines.host.shown = false;
+  EXPECT_TRUE(holds(line_with(text_report({still, false}), "  hosts' update  "), "the next one"));
+}
+
+TEST(TextReport, SaysThatAScreenIsInterlaced) {
+  run::Result result = example_result();
+  result.interlaced = true;
+  EXPECT_TRUE(answer_sentence(result).starts_with("512x512 interlaced at 50 Hz: sustained"));
+  EXPECT_TRUE(holds(text_report({result, false}), "A frame is two fields"));
+  EXPECT_FALSE(holds(text_report({example_result(), false}), "A frame is two fields"));
+}
+
 TEST(TextReport, ShowsBandwidthMemoryAndLogic) {
   const std::string text = text_report({example_result(), false});
   const std::string link = line_with(text, "boards to decision unit");
