@@ -7,13 +7,13 @@ namespace rastertlm::analysis {
 // The video timing announces a frame's lines at the instant at which its retrace begins.
 void FrameRecorder::note(std::size_t line, std::uint64_t first_pixel_ps, Passage& passage) const {
   const std::uint64_t since_retrace = first_pixel_ps - stream::picoseconds_now();
-  if (line == 0) passage.first_line_ps = since_retrace;
-  if (line + 1 == lines_.size()) passage.last_line_ps = since_retrace;
+  if (line < field_.count) passage.first_line_ps = since_retrace;
+  if (line + field_.count >= lines_.size()) passage.last_line_ps = since_retrace;
 }
 
 stream::Observer<stream::FragmentPayload> FrameRecorder::decided() {
   return [this](const stream::FragmentPayload& payload, std::uint64_t first_pixel_ps) {
-    if (payload.frame != frame_) return;
+    if (!is_wanted(payload.frame, payload.line)) return;
     lines_.at(payload.line) = *payload.fragments;
     note(payload.line, first_pixel_ps, decided_);
   };
@@ -21,7 +21,7 @@ stream::Observer<stream::FragmentPayload> FrameRecorder::decided() {
 
 stream::Observer<stream::RgbPayload> FrameRecorder::shaded() {
   return [this](const stream::RgbPayload& payload, std::uint64_t first_pixel_ps) {
-    if (payload.frame == frame_) note(payload.line, first_pixel_ps, shaded_);
+    if (is_wanted(payload.frame, payload.line)) note(payload.line, first_pixel_ps, shaded_);
   };
 }
 

@@ -33,11 +33,11 @@ void write_decision(const std::vector<frame::FragmentLine>& lines, std::uint32_t
   });
 }
 
-void write_rgb(const frame::Frame& frame, VectorFiles& files) {
+void write_rgb(const frame::Frame& frame, std::size_t field, std::size_t fields, VectorFiles& files) {
   files.stream("rgb.csv", [&](report::TextFileWriter& file) {
     file.append("line,column,r,g,b\n");
     std::string rows;
-    for (std::size_t y = 0; y < frame.lines; ++y) {
+    for (std::size_t y = field; y < frame.lines; y += fields) {
       rows.clear();
       for (std::size_t x = 0; x < frame.columns; ++x) {
         const std::uint8_t* levels = &frame.rgb[3 * (y * frame.columns + x)];
@@ -52,7 +52,7 @@ bool tables_shade(const shading::DeferredShader& shader, const std::vector<frame
                   const frame::Frame& frame) {
   shading::ShadingCounters ignored;
   for (std::size_t y = 0; y < lines.size(); ++y)
-    for (std::size_t x = 0; x < frame.columns; ++x) {
+    for (std::size_t x = 0; x < lines[y].columns(); ++x) {
       const frame::FragmentLine& line = lines[y];
       const shading::Levels levels =
           shows_object(line, x)

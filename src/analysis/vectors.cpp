@@ -41,8 +41,8 @@ report::VectorsTiming timing_of(const imogene::Imogene& platform) {
                                       Cycles(count(machine.object_processor.comparator_cycles)))
                       .count();
   t.shading_cycles = machine.shading.total_latency().count();
-  const std::uint64_t to_last =
-      (video.line * (count(machine.video.lines) - 1) + Cycles(count(machine.video.columns) - 1)).count();
+  const std::uint64_t lines = count(machine.video.lines) / video.fields;
+  const std::uint64_t to_last = (video.line * (lines - 1) + Cycles(count(machine.video.columns) - 1)).count();
   t.first_pixel_word_cycle = video.first_pixel(0).count();
   t.first_pixel_decision_cycle = t.first_pixel_word_cycle + t.prenormalisation_cycles + t.decision_cycles;
   t.first_pixel_rgb_cycle = t.first_pixel_decision_cycle + t.shading_cycles;
@@ -76,6 +76,7 @@ report::VectorsMachine machine_of(const imogene::Machine& machine, const BinaryP
   report::VectorsMachine m;
   m.columns = count(machine.video.columns);
   m.lines = count(machine.video.lines);
+  m.fields = machine.video.interlaced ? 2 : 1;
   m.boards = count(machine.host.computation_units);
   m.processors_per_board = count(machine.host.processors_per_unit);
   m.topology = machine.decision_unit.topology == decision_unit::Topology::tree ? "tree" : "pipeline";
@@ -110,6 +111,11 @@ report::VectorsShading shading_of(const shading::ShadingParameters& p) {
   return s;
 }
 
+void check_field(std::uint64_t field, bool interlaced) {
+  if (field > 0 && !interlaced)
+    throw InputError(Diagnostic{"--field", 0, "", "a frame of this machine has no fields: video.interlaced is false"});
+}
+
 ProcessorRange range_of(const std::optional<ProcessorRange>& asked, std::uint64_t processors) {
   if (!asked) return {0, processors - 1};
   if (asked->last >= processors)
@@ -135,6 +141,7 @@ report::VectorsManifest write_frame(imogene::Imogene& platform, const run::Input
   manifest.config_digest = config::digest(table);
   manifest.scene_digest = inputs.content->scene.digest;
   manifest.frame = shown.frame;
+  manifest.field = shown.field;
   manifest.animation_frame = shown.animation_frame;
   manifest.words_ahead = shown.words_ahead;
   manifest.machine = machine_of(machine, points);
@@ -155,7 +162,7 @@ report::VectorsManifest write_frame(imogene::Imogene& platform, const run::Input
   write_microprogram(machine.object_processor.slices(), files);
   write_tables(platform.shader(), static_cast<unsigned>(machine.object_processor.normal_bits), files);
   write_decision(recorder.lines(), static_cast<std::uint32_t>(manifest.machine.background_depth), files);
-  write_rgb(pixels, files);
+  write_rgb(pixels, shown.field, platform.timing().fields, files);
   files.write(report::kResolvedMachine, run::resolved_machine_toml(inputs));
   files.write(report::kResolvedScene, run::resolved_scene_toml(inputs));
   files.write(report::kVectorsPage, vectors_page(manifest));
@@ -169,12 +176,15 @@ report::VectorsManifest write_vectors(const run::Inputs& inputs, const VectorsOp
                                       const report::OutputDirectory& directory) {
   const imogene::Machine& machine = inputs.content->machine;
   const ProcessorRange range = range_of(options.processors, machine.processors());
-  FrameRecorder recorder(options.frame, static_cast<std::size_t>(machine.video.lines));
+  check_field(options.field, machine.video.interlaced);
+  FrameRecorder recorder(options.frame, {options.field, machine.video.interlaced ? 2U : 1U},
+                         static_cast<std::size_t>(machine.video.lines));
   VectorFiles files(directory);
   report::VectorsManifest manifest;
   std::unique_ptr<imogene::Imogene> platform;
   const auto show = [&](const imogene::ShownFrame& shown, const frame::Frame& pixels) {
-    if (shown.frame == options.frame) manifest = write_frame(*platform, inputs, range, recorder, shown, pixels, files);
+    if (shown.frame == options.frame && shown.field == options.field)
+      manifest = write_frame(*platform, inputs, range, recorder, shown, pixels, files);
   };
   imogene::Options simulated;
   simulated.frames = options.frame + 1;

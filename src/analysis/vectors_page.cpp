@@ -11,7 +11,7 @@ using report::VectorsManifest;
 
 std::string head(const VectorsManifest& v) {
   return fmt::format(
-      R"(# Vectors of displayed frame {frame}
+      R"(# Vectors of displayed frame {frame}{field}
 
 Stimulus and expected response for an RTL of the object machine (I.M.O.G.E.N.E.: {boards} boards of {slots} triangle processors, {topology}),
 {columns} x {lines} pixels. {objects} processors hold an object; {listed} have files here. Everything is what the simulated machine held and gave, bit for bit;
@@ -35,11 +35,15 @@ Processor p = b x {slots} + slot, from 0: its address on the bus, its place in t
 scene, from 1: an observer's mark that no wire carries.
 
 )",
-      fmt::arg("frame", v.frame), fmt::arg("boards", v.machine.boards),
-      fmt::arg("slots", v.machine.processors_per_board), fmt::arg("topology", v.machine.topology),
-      fmt::arg("columns", v.machine.columns), fmt::arg("lines", v.machine.lines),
-      fmt::arg("objects", v.processors_with_object), fmt::arg("listed", v.processors_listed),
-      fmt::arg("word_bits", v.machine.word_bits), fmt::arg("material_bits", v.machine.material_bits));
+      fmt::arg("frame", v.frame),
+      fmt::arg("field", v.machine.fields == 1 ? std::string()
+                                              : fmt::format(", field {}: its lines {}, {}, ...", v.field, v.field,
+                                                            v.field + v.machine.fields)),
+      fmt::arg("boards", v.machine.boards), fmt::arg("slots", v.machine.processors_per_board),
+      fmt::arg("topology", v.machine.topology), fmt::arg("columns", v.machine.columns),
+      fmt::arg("lines", v.machine.lines), fmt::arg("objects", v.processors_with_object),
+      fmt::arg("listed", v.processors_listed), fmt::arg("word_bits", v.machine.word_bits),
+      fmt::arg("material_bits", v.machine.material_bits));
 }
 
 std::string loading(const VectorsManifest& v) {
@@ -162,19 +166,31 @@ std::string cycles(const VectorsManifest& v) {
                                      "The microinstruction travels with the pixel: processor p works p x {} cycles "
                                      "later than processor 0 in all of this.",
                                      t.skew_cycles / (v.machine.boards * v.machine.processors_per_board - 1));
+  const std::uint64_t line0 = t.first_pixel_word_cycle - t.line_start_cycles;
+  const std::string rows = v.machine.fields == 1
+                               ? fmt::format("Pixel (x, y) comes y x {} + x cycles after the first.", t.line_cycles)
+                               : fmt::format("Pixel (x, y) comes (y - {}) / {} x {} + x cycles after the first.",
+                                             v.field, v.machine.fields, t.line_cycles);
+  const std::string starts = v.machine.fields == 1
+                                 ? fmt::format("that of line y begins in cycle {} + y x {}.", line0, t.line_cycles)
+                                 : fmt::format(
+                                       "it runs twice before every line, for B y + C goes on by two lines, and once "
+                                       "before line 0; before the first line the last run begins "
+                                       "in cycle {}.",
+                                       line0);
   return fmt::format(
       R"(## Which cycle to compare
 
 Cycle 0 is the first step of the frame-start microprogram (Select) in processor 0: the retrace begins there. All cycles are of the pixel clock ({clock:.9g} ns).
 
-| | first pixel (0, 0) | last pixel ({last_x}, {last_y}) |
+| | first pixel (0, {first_y}) | last pixel ({last_x}, {last_y}) |
 |---|---|---|
 | words of processor 0 | {word0} | {word1} |
 | decision unit's output | {decision0} | {decision1} |
 | RGB output | {rgb0} | {rgb1} |
 
-Pixel (x, y) comes y x {line} + x cycles after the first. The frame start takes {frame_start} cycles. The line start of line y takes {line_start} cycles, and its last step is
-the cycle before that of column 0: it begins in cycle {line0} + y x {line}. {skew} From a pixel's words to the decision unit's output there
+{rows} The frame start takes {frame_start} cycles. The line start takes {line_start} cycles, and its last step is
+the cycle before that of column 0: {starts} {skew} From a pixel's words to the decision unit's output there
 are {prenormalisation} cycles of pre-normalisation and {decision} of comparison; from there to the levels {shading}. A test bench whose sequencer does not wait for a video
 line compares the same rows in the same order; only the cycles of lines differ.
 
@@ -182,18 +198,18 @@ An output "of a cycle" is what stands in the register during that cycle, before 
 
 ## Once more
 
-`rastertlm vectors config.resolved.toml scene.resolved.toml --frame {frame} --out DIR` writes these files again. A run into this directory replaces its
+`rastertlm vectors config.resolved.toml scene.resolved.toml --frame {frame}{field} --out DIR` writes these files again. A run into this directory replaces its
 files, so keep what is yours elsewhere.
 )",
-      fmt::arg("clock", t.pixel_clock_ns), fmt::arg("last_x", v.machine.columns - 1),
-      fmt::arg("last_y", v.machine.lines - 1), fmt::arg("word0", t.first_pixel_word_cycle),
+      fmt::arg("clock", t.pixel_clock_ns), fmt::arg("last_x", v.machine.columns - 1), fmt::arg("first_y", v.field),
+      fmt::arg("last_y", v.machine.lines - v.machine.fields + v.field), fmt::arg("word0", t.first_pixel_word_cycle),
       fmt::arg("word1", t.last_pixel_word_cycle), fmt::arg("decision0", t.first_pixel_decision_cycle),
       fmt::arg("decision1", t.last_pixel_decision_cycle), fmt::arg("rgb0", t.first_pixel_rgb_cycle),
-      fmt::arg("rgb1", t.last_pixel_rgb_cycle), fmt::arg("line", t.line_cycles),
-      fmt::arg("frame_start", t.frame_start_cycles), fmt::arg("line_start", t.line_start_cycles),
-      fmt::arg("line0", t.first_pixel_word_cycle - t.line_start_cycles), fmt::arg("skew", skew),
-      fmt::arg("prenormalisation", t.prenormalisation_cycles), fmt::arg("decision", t.decision_cycles),
-      fmt::arg("shading", t.shading_cycles), fmt::arg("frame", v.frame));
+      fmt::arg("rgb1", t.last_pixel_rgb_cycle), fmt::arg("frame_start", t.frame_start_cycles),
+      fmt::arg("line_start", t.line_start_cycles), fmt::arg("rows", rows), fmt::arg("starts", starts),
+      fmt::arg("skew", skew), fmt::arg("prenormalisation", t.prenormalisation_cycles),
+      fmt::arg("decision", t.decision_cycles), fmt::arg("shading", t.shading_cycles), fmt::arg("frame", v.frame),
+      fmt::arg("field", v.machine.fields == 1 ? std::string() : fmt::format(" --field {}", v.field)));
 }
 
 }  // namespace

@@ -64,6 +64,10 @@ std::string frame_number(const std::string& text) {
   return fmt::format("'{}' is not a whole number from 0 to {}", text, kMostFrames - 1);
 }
 
+std::string field_number(const std::string& text) {
+  return text == "0" || text == "1" ? "" : fmt::format("'{}' is neither 0, the even lines, nor 1, the odd ones", text);
+}
+
 std::pair<std::uint64_t, std::uint64_t> range_of(const std::string& text) {
   const std::size_t dash = std::min(text.find('-'), text.size());
   std::pair<std::uint64_t, std::uint64_t> range{1, 0};

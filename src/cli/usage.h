@@ -19,6 +19,7 @@ std::string left_over(const CLI::App& app, const std::vector<std::string>& words
 std::string finite_and_positive(const std::string& text);
 std::string whole_from_one(const std::string& text);
 std::string frame_number(const std::string& text);  // 0 .. one less than whole_from_one() allows
+std::string field_number(const std::string& text);  // 0 or 1
 std::string whole_range(const std::string& text);   // FROM-TO
 std::string not_empty(const std::string& text);
 

@@ -18,10 +18,11 @@ void print_summary(const report::VectorsManifest& manifest, const std::string& d
   using report::grouped;
   const report::VectorsTiming& t = manifest.timing;
   std::string text = fmt::format(
-      "Frame {}: {} of {} processors hold an object; words of {} are written.\n"
+      "Frame {}{}: {} of {} processors hold an object; words of {} are written.\n"
       "First and last pixel, in cycles of the pixel clock from the frame's first microinstruction: {} and {} at the "
       "decision unit's output, {} and {} at the RGB output.\n",
-      manifest.frame, grouped(manifest.processors_with_object),
+      manifest.frame, manifest.machine.fields == 1 ? std::string() : fmt::format(", field {}", manifest.field),
+      grouped(manifest.processors_with_object),
       grouped(manifest.machine.boards * manifest.machine.processors_per_board), grouped(manifest.processors_listed),
       grouped(t.first_pixel_decision_cycle), grouped(t.last_pixel_decision_cycle), grouped(t.first_pixel_rgb_cycle),
       grouped(t.last_pixel_rgb_cycle));
@@ -48,6 +49,10 @@ void VectorsCommand::declare(CLI::App& app) {
       ->allow_extra_args(false);
   validated(app.add_option("--frame", frame_, "displayed frame, from 0")->capture_default_str()->type_name("N"),
             frame_number);
+  validated(app.add_option("--field", field_, "of interlaced video: 0 even lines, 1 odd lines")
+                ->capture_default_str()
+                ->type_name("0|1"),
+            field_number);
   validated(app.add_option("--out", out_, "directory of the files")->type_name("DIR"), not_empty)->required();
   validated(app.add_option("--processors", processors_, "write the words of these alone, both included")
                 ->type_name("FROM-TO"),
@@ -57,7 +62,7 @@ void VectorsCommand::declare(CLI::App& app) {
 ExitCode VectorsCommand::run() {
   report::OutputDirectory::remove_on_signals();
   const run::Inputs inputs = run::read_inputs(machine_, scene_, overrides_);
-  analysis::VectorsOptions options{frame_, {}};
+  analysis::VectorsOptions options{frame_, field_, {}};
   if (!processors_.empty()) {
     const auto [first, last] = range_of(processors_);
     options.processors = analysis::ProcessorRange{first, last};

@@ -23,6 +23,7 @@ class VectorsCommand : public Command {
   std::string scene_ = "configs/scenes/teapot.toml";
   std::vector<std::string> overrides_;
   std::uint64_t frame_ = 0;
+  std::uint64_t field_ = 0;
   std::string out_;
   std::string processors_;  // FROM-TO; empty: all
 };

@@ -15,6 +15,7 @@ constexpr const char* kKind = "vectors";
 Json machine_json(const VectorsMachine& m) {
   return {{"columns", m.columns},
           {"lines", m.lines},
+          {"fields", m.fields},
           {"boards", m.boards},
           {"processors_per_board", m.processors_per_board},
           {"topology", m.topology},
@@ -76,6 +77,7 @@ std::string vectors_manifest_text(const VectorsManifest& manifest) {
                {"config_digest", manifest.config_digest},
                {"scene_digest", manifest.scene_digest},
                {"frame", manifest.frame},
+               {"field", manifest.field},
                {"animation_frame", manifest.animation_frame},
                {"words_ahead", manifest.words_ahead},
                {"machine", machine_json(manifest.machine)},

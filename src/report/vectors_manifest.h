@@ -18,7 +18,8 @@ struct VectorsTiming {
   std::uint64_t vertical_retrace_cycles = 0;     // at the start of a frame
   std::uint64_t line_cycles = 0;                 // horizontal blanking and pixels
   std::uint64_t horizontal_blanking_cycles = 0;  // at the start of a line
-  std::uint64_t frame_start_cycles = 0;          // steps of the microprograms
+  std::uint64_t frame_start_cycles = 0;          // steps of the microprograms; the line start runs once a line
+                                                 // that it goes on by
   std::uint64_t line_start_cycles = 0;
   std::uint64_t prenormalisation_cycles = 0;
   std::uint64_t decision_cycles = 0;
@@ -35,7 +36,8 @@ struct VectorsTiming {
 
 struct VectorsMachine {
   std::uint64_t columns = 0;
-  std::uint64_t lines = 0;
+  std::uint64_t lines = 0;   // of a displayed frame
+  std::uint64_t fields = 1;  // of a displayed frame: 2 where it is interlaced
   std::uint64_t boards = 0;
   std::uint64_t processors_per_board = 0;
   std::string topology;
@@ -78,6 +80,7 @@ struct VectorsManifest {
   std::string config_digest;
   std::string scene_digest;
   std::uint64_t frame = 0;
+  std::uint64_t field = 0;           // of it, where it has two: 0 even lines, 1 odd lines
   std::int64_t animation_frame = 0;  // the pose that was last shown whole
   std::uint64_t words_ahead = 0;     // of an update that the hosts have not finished: the picture is torn
   VectorsMachine machine;

@@ -28,7 +28,7 @@ TEST_F(VectorsCommandTest, HelpNamesItsOptions) {
   EXPECT_THAT(run({"--help"}).out, HasSubstr("vectors"));
   const Outcome help = run({"vectors", "--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* option : {"MACHINE", "SCENE", "--out", "--frame", "--set", "--processors"})
+  for (const char* option : {"MACHINE", "SCENE", "--out", "--frame", "--field", "--set", "--processors"})
     EXPECT_THAT(help.out, HasSubstr(option));
 }
 

@@ -49,6 +49,11 @@ TEST_F(BadVectorsTest, FrameOutOfRange) {
   given({"--out", "o", "--frame", "999999", "--set", "video.refresh_hz=0.01"}, {"46 days"});
 }
 
+TEST_F(BadVectorsTest, Field) {
+  for (const char* field : {"2", "-1", "odd"}) given({"--out", "o", "--field", field}, {"--field: ", "is neither 0"});
+  given({"--out", "o", "--field", "1"}, {"--field: a frame of this machine has no fields: video.interlaced is false"});
+}
+
 TEST_F(BadVectorsTest, Processors) {
   for (const char* range : {"3", "3-", "-3", "4-3", "a-b", "0-1-2", " 0-1", "0.0-1"})
     given({"--out", "o", "--processors", range}, {"is not FROM-TO"});

@@ -132,6 +132,8 @@ class Machine {
   explicit Machine(const Manifest& manifest)
       : columns(manifest.number("columns")),
         lines(manifest.number("lines")),
+        field(manifest.number("field")),
+        fields(manifest.number("fields")),
         word_bits(static_cast<unsigned>(manifest.number("word_bits"))),
         normal_bits(static_cast<unsigned>(manifest.number("normal_bits"))),
         mask((Word{1} << word_bits) - 1) {}
@@ -140,6 +142,8 @@ class Machine {
 
   Word columns;
   Word lines;
+  Word field;  // lines field, field + fields, ... are listed
+  Word fields;
   unsigned word_bits;
   unsigned normal_bits;
   Word mask;
@@ -226,7 +230,7 @@ struct Nearest {
 };
 
 void draw(const Processor& processor, const Machine& machine, Nearest& nearest) {
-  for (Word y = 0; y < machine.lines; ++y)
+  for (Word y = machine.field; y < machine.lines; y += machine.fields)
     for (Word x = 0; x < machine.columns; ++x) {
       const auto& w = processor.words;
       if (machine.negative(machine.at(w[0], x, y) | machine.at(w[1], x, y) | machine.at(w[2], x, y))) continue;
@@ -275,7 +279,7 @@ std::size_t check_decision(const std::vector<Processor>& processors, const Machi
   const Nearest nearest = nearest_of(processors, machine);
   Rows rows("decision.csv", "line,column,object,depth,normal_x,normal_y,normal_z,material");
   std::size_t covered = 0;
-  for (Word y = 0; y < machine.lines; ++y)
+  for (Word y = machine.field; y < machine.lines; y += machine.fields)
     for (Word x = 0; x < machine.columns; ++x) {
       const std::size_t pixel = y * machine.columns + x;
       const Processor* p = nearest.processor[pixel];
@@ -403,7 +407,7 @@ void check_rgb(const Manifest& manifest, const Machine& machine) {
   const Shading shading(manifest);
   Rows decision("decision.csv", "line,column,object,depth,normal_x,normal_y,normal_z,material");
   Rows rgb("rgb.csv", "line,column,r,g,b");
-  for (Word y = 0; y < machine.lines; ++y)
+  for (Word y = machine.field; y < machine.lines; y += machine.fields)
     for (Word x = 0; x < machine.columns; ++x) {
       const std::vector<Word>& pixel = decision.next();
       const auto levels = shading.levels(pixel[2], {pixel[4], pixel[5], pixel[6]}, pixel[7]);
@@ -427,7 +431,8 @@ int main(int argc, char** argv) {
     const std::size_t covered = check_decision(processors, machine);
     check_index(processors, manifest, machine);
     check_rgb(manifest, machine);
-    std::cout << processors.size() << " processors, " << machine.columns * machine.lines << " pixels, " << covered
+    std::cout << processors.size() << " processors, " << machine.columns * (machine.lines / machine.fields)
+              << " pixels, " << covered
               << " of them covered: decision.csv and rgb.csv are what the words and tables give\n";
     return 0;
   } catch (const Difference& difference) {

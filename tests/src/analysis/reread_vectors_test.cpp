@@ -88,6 +88,27 @@ TEST_F(RereadVectorsTest, TornPicture) {
   EXPECT_THAT(text_of("README.md"), HasSubstr("This picture is torn"));
 }
 
+// Each field is a picture of its own of every second line, with words of its own.
+TEST_F(RereadVectorsTest, Fields) {
+  write("machine.toml", kSmallMachine);
+  write("scene.toml", kRichScene + "[[object.animation]]\ntype = \"spin\"\ndeg_per_frame = 20.0\n");
+  const std::vector<std::string> interlaced{"video.interlaced=true", "host.processors_per_unit=64", "shading.lights=2"};
+  std::set<std::string> pictures;
+  for (const char* field : {"0", "1"}) {
+    same("machine.toml", "scene.toml", interlaced, {"--frame", "1", "--field", field});
+    EXPECT_EQ(number("field"), std::stoul(field));
+    EXPECT_EQ(number("animation_frame"), 2 + std::stoul(field)) << "the animation goes on a field at a time";
+    std::size_t rows = 0;
+    for_each_row("decision.csv", [&](const std::vector<std::string>& row) {
+      EXPECT_EQ(std::stoul(row[0]), 2 * (rows++ / 64) + std::stoul(field));
+    });
+    EXPECT_EQ(rows, 64U * 24U);
+    EXPECT_THAT(text_of("README.md"), HasSubstr(std::string("field ") + field));
+    pictures.insert(text_of("index.csv"));
+  }
+  EXPECT_EQ(pictures.size(), 2U);
+}
+
 // The camera so near that triangles leave the screen and the depth range: clipped to the guard band, in pieces.
 TEST_F(RereadVectorsTest, ClippedToTheGuardBand) {
   same(kShippedMachine, kShippedTeapot, {"camera.eye=[0.0, -3.5, 2.2]"});

@@ -138,6 +138,19 @@ TEST_F(WholeVectorsTest, CyclesMoveWithTheirParameters) {
   EXPECT_EQ(number("last_pixel_rgb_cycle"), number("first_pixel_rgb_cycle") + 47 * 10'174 + 63);
 }
 
+// Fields of 24 lines at 60 ns: 333,333 clocks, a line floor((333,333 - 10,000) / 24) = 13,472, the retrace 333,333 - 24
+// x 13,472 = 10,005. Both fields have the same cycles.
+TEST_F(WholeVectorsTest, CyclesOfAFieldCountFromItsOwnRetrace) {
+  for (const char* field : {"0", "1"}) {
+    write_vectors({"video.interlaced=true"}, {"--frame", "1", "--field", field});
+    EXPECT_EQ(number("line_cycles"), 13'472U);
+    const std::uint64_t words = 10'005 + 13'472 - 64;
+    EXPECT_EQ(number("first_pixel_word_cycle"), words);
+    EXPECT_EQ(number("first_pixel_decision_cycle"), words + 1 + 5) << "a tree of 32";
+    EXPECT_EQ(number("last_pixel_rgb_cycle"), words + 1 + 5 + 10 + 23 * 13'472 + 63);
+  }
+}
+
 // 004, section 5.2.2: one listed line is one cycle.
 TEST_F(WholeVectorsTest, TheMicroprogramIsThePublishedOne) {
   write_vectors();
