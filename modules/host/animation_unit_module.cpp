@@ -104,9 +104,11 @@ void AnimationUnitModule::announce_lights() {
   light_operations_ = light_payload_.changed ? geometry::operation_counts - before : geometry::OperationCounts();
   if (bus_ != nullptr && light_payload_.changed) {
     const std::uint64_t words = shading::light_words(light_payload_.lights.size());
-    bus_->record(cost_.bus_words(words), Cycles(cost_.bus_words(words)));
+    const sc_core::sc_time taken = stream::to_time(cost_.clock(), cost_.bus(words));
+    bus_->record(cost_.bus_words(words), Cycles(cost_.bus_words(words)), picoseconds_now(),
+                 picoseconds_now() + taken.value());
     meter_.enter(Activity::busy, picoseconds_now());
-    wait(stream::to_time(cost_.clock(), cost_.bus(words)));
+    wait(taken);
   }
   loader->b_transport(light_payload_, delay);
 }

@@ -123,6 +123,8 @@ void ComputationUnitModule::fit_and_write(const Message& plan) {
   for (BusBurst burst(schedule, segments_, cost_.word(), cycles_since_swap()); !burst.done();) {
     const BusBurst::Step step = burst.step();
     write_words(loads, step.words);
+    const std::uint64_t bus_words = cost_.bus_words(step.words);  // the bus' clock moves one a cycle
+    links_.bus->record(bus_words, Cycles(bus_words), picoseconds_now(), schedule.picoseconds(burst.cycle()));
     update_.stalled += step.blocked;
     meter_.enter(step.blocked > Cycles(0) ? Activity::blocked : Activity::busy, picoseconds_now());
     wait_until(schedule.picoseconds(burst.cycle()));
@@ -142,7 +144,6 @@ void ComputationUnitModule::cut_into_segments(const std::vector<Load>& loads, Cy
 
 void ComputationUnitModule::write_words(const std::vector<Load>& loads, std::uint64_t count) {
   words_sent_ += count;
-  links_.bus->record(cost_.bus_words(count), Cycles(cost_.bus_words(count)));  // its clock moves a word a cycle
   while (count > 0) {
     const Load& load = loads[load_];
     const std::uint64_t left = words_of(load) - word_;

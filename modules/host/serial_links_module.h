@@ -39,7 +39,7 @@ inline sc_core::sc_time start_message(std::uint64_t bytes, const HostCost& cost,
   }
   const sc_core::sc_time transfer = stream::to_time(cost.clock(), cost.transfer(bytes));
   port.free_ps = stream::picoseconds_now() + transfer.value();
-  port.link->record(bytes, cost.link_cycles(bytes));
+  port.link->record(bytes, cost.link_cycles(bytes), stream::picoseconds_now(), port.free_ps);
   return transfer;
 }
 

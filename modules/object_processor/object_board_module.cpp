@@ -54,8 +54,8 @@ void ObjectBoardModule::synchronise(stream::SyncPayload& payload, sc_core::sc_ti
     if (payload.copy) {
       board_.copy();
       ++copies_;
-      if (payload.swap) words_swapped_ = words_loaded_;
-      words_ahead_ = words_loaded_ - words_swapped_;
+      if (payload.whole) words_whole_ = words_loaded_;
+      words_ahead_ = words_loaded_ - words_whole_;
     }
     return;
   }

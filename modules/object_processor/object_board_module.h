@@ -32,7 +32,7 @@ class ObjectBoardModule : public sc_core::sc_module {
   std::uint64_t words_loaded() const { return words_loaded_; }
   std::uint64_t lines_sent() const { return lines_sent_; }
   std::uint64_t copies() const { return copies_; }
-  // Words in use that belong to an update that the hosts have not finished: what tears a picture. 0 after a swap.
+  // Words in use that belong to an update which the computation units have not finished: what tears a picture.
   std::uint64_t words_ahead() const { return words_ahead_; }
 
  private:
@@ -48,7 +48,7 @@ class ObjectBoardModule : public sc_core::sc_module {
   std::uint64_t words_loaded_ = 0;
   std::uint64_t lines_sent_ = 0;
   std::uint64_t copies_ = 0;
-  std::uint64_t words_swapped_ = 0;  // of words_loaded_, at the last swap
+  std::uint64_t words_whole_ = 0;  // of words_loaded_, at the last copy of a whole frame
   std::uint64_t words_ahead_ = 0;
 };
 

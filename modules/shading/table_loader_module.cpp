@@ -233,6 +233,7 @@ void TableLoaderModule::synchronise(stream::SyncPayload& payload, sc_core::sc_ti
   if (payload.kind == stream::SyncPayload::Kind::retrace) {
     late_lines_of_frame_ = 0;
     if (payload.copy) start_of_retrace(payload);
+    if (payload.swap) ahead_ = false;
   } else if (work_ == Work::running && at_retrace() && advance(picoseconds_now() + delay.value(), true)) {
     ++late_lines_of_frame_;
     ++late_lines_;
@@ -243,9 +244,11 @@ void TableLoaderModule::synchronise(stream::SyncPayload& payload, sc_core::sc_ti
 void TableLoaderModule::start_of_retrace(stream::SyncPayload& payload) {
   if (work_ == Work::done) {
     payload.switch_tables = true;
+    ahead_ = true;
     work_ = Work::none;
   } else if (work_ == Work::planned) {
     start();
+    ahead_ = true;
     started_.notify(sc_core::SC_ZERO_TIME);
   }
 }

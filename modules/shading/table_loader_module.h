@@ -39,6 +39,8 @@ class TableLoaderModule : public sc_core::sc_module {
                     std::array<Engine, kEngines> engines);
 
   std::uint64_t words_sent() const { return words_sent_; }
+  // The tables that are used are those of the frame that the hosts are at, whose objects are not wholly written.
+  bool tables_ahead() const { return ahead_; }
   // From the retrace that started it to its last word, the longest load after the first picture: the slowest loader's.
   double longest_load_seconds() const { return longest_load_seconds_; }
   // Lines whose first pixel read a table that was not written to its end: of the frame whose lines were announced last,
@@ -91,6 +93,7 @@ class TableLoaderModule : public sc_core::sc_module {
   bool pending_ = false;  // lights have been received and not yet looked at
   bool changed_ = false;  // they are others than before
   bool will_change_ = false;
+  bool ahead_ = false;
   std::uint64_t arrives_ps_ = 0;
   std::uint64_t swap_ps_ = 0;  // the retrace that started the frame in hand
   bool first_ = true;

@@ -31,8 +31,9 @@ struct SyncPayload : tlm::tlm_generic_payload {
   Kind kind = Kind::line;
   std::uint64_t frame = 0;
   std::size_t line = 0;
-  bool copy = false;  // retrace: loading RAMs go to backup RAMs
-  bool swap = false;  // retrace: they hold a whole frame, with which the hosts have finished
+  bool copy = false;   // retrace: loading RAMs go to backup RAMs
+  bool whole = false;  // retrace: they hold a whole frame, with which the computation units have finished
+  bool swap = false;   // retrace: so do the tables, and the hosts go on to the next frame
   bool switch_tables =
       false;  // retrace: set by the table loader for the shading processor behind it: use the other bank
 };

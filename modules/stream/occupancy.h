@@ -19,7 +19,8 @@ struct Occupancy {
   std::uint64_t idle = 0;     // nothing to do
 
   void check(const std::string& unit) const {
-    if (busy + starved + blocked + idle != cycles)
+    const bool within = busy <= cycles && starved <= cycles && blocked <= cycles && idle <= cycles;  // no sum wraps
+    if (!within || busy + starved + blocked + idle != cycles)
       throw ModelError(unit, cycles,
                        "busy " + std::to_string(busy) + " + starved " + std::to_string(starved) + " + blocked " +
                            std::to_string(blocked) + " + idle " + std::to_string(idle) + " is not " +

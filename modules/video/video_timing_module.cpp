@@ -25,8 +25,8 @@ VideoTimingModule::VideoTimingModule(const sc_core::sc_module_name& name, const 
   SC_THREAD(run_guarded);
 }
 
-bool VideoTimingModule::everything_ready() const {
-  return tables_ready.read() && std::all_of(ready.begin(), ready.end(), [](const auto& unit) { return unit.read(); });
+bool VideoTimingModule::units_ready() const {
+  return std::all_of(ready.begin(), ready.end(), [](const auto& unit) { return unit.read(); });
 }
 
 void VideoTimingModule::announce(SyncPayload::Kind kind, std::size_t line, Cycles since_frame_start) {
@@ -40,20 +40,22 @@ void VideoTimingModule::announce(SyncPayload::Kind kind, std::size_t line, Cycle
 }
 
 void VideoTimingModule::begin_retrace(std::uint64_t video_frame) {
-  payload_.swap = everything_ready() && (showing_ || begins_frame(video_frame));
-  if (payload_.swap) {
-    if (!showing_) {
-      first_frame_ps_ = stream::picoseconds_now();
-      frames_before_first_ = video_frame;
-    }
+  const bool units = units_ready();
+  payload_.swap = units && tables_ready.read() && (showing_ || begins_frame(video_frame));
+  if (payload_.swap && !showing_) {
+    first_frame_ps_ = stream::picoseconds_now();
+    frames_before_first_ = video_frame;
     showing_ = true;
-    ++updates_;
   }
   payload_.copy = payload_.swap || (showing_ && copy_ == Copy::at_every_retrace);
+  payload_.whole = payload_.copy && units;
+  if (payload_.whole && !whole_shown_) ++updates_;
+  // A whole frame of objects may be shown before its tables; the hosts wait for both.
+  whole_shown_ = payload_.whole && !payload_.swap;
   payload_.switch_tables = false;
   announce(SyncPayload::Kind::retrace, 0, Cycles(0));
   if (payload_.swap) swapped.notify(sc_core::SC_ZERO_TIME);
-  payload_.copy = payload_.swap = payload_.switch_tables = false;
+  payload_.copy = payload_.whole = payload_.swap = payload_.switch_tables = false;
 }
 
 // Lines of the picture that are in the field being shown: all, or those of its parity.

@@ -33,10 +33,12 @@ class VideoTimingModule : public sc_core::sc_module {
                     std::size_t computation_units, std::uint64_t frames, std::uint64_t patience,
                     Copy copy = Copy::when_ready);
 
-  // Picoseconds at which the first displayed frame's retrace began, and the number of video frames that began with
-  // everything ready.
+  // Picoseconds at which the first displayed frame's retrace began, and the number of video frames that began with a
+  // new frame of objects, wholly written.
   std::uint64_t first_frame_ps() const { return first_frame_ps_; }
   std::uint64_t updates() const { return updates_; }
+  // The objects that are shown are those of the frame that the hosts are at, whose tables are not ready.
+  bool objects_ahead() const { return whole_shown_; }
   std::uint64_t frames_before_first() const { return frames_before_first_; }
   // Video frames shown so far, with the one whose lines are being announced not yet among them: the number of the video
   // frame that is being shown; before the first picture, 0.
@@ -47,7 +49,7 @@ class VideoTimingModule : public sc_core::sc_module {
  private:
   void run_guarded();
   void run();
-  bool everything_ready() const;
+  bool units_ready() const;
   void begin_retrace(std::uint64_t video_frame);
   bool begins_frame(std::uint64_t video_frame) const { return video_frame % timing_.fields == 0; }
   void announce_lines();
@@ -64,6 +66,7 @@ class VideoTimingModule : public sc_core::sc_module {
   std::uint64_t first_frame_ps_ = 0;
   std::uint64_t frames_before_first_ = 0;
   bool showing_ = false;
+  bool whole_shown_ = false;  // the frame that the hosts are at, without its tables
   bool finished_ = false;
 };
 

@@ -159,6 +159,8 @@ void Imogene::build_links() {
                                        machine_.material_bits()};
   for (std::size_t k = 0; k < units; ++k)
     host_links_.push_back(&add_link(fmt::format("host link {}", k), 8, byte_clock));
+  for (std::size_t k = 0; k < units; ++k)
+    up_links_.push_back(&add_link(fmt::format("host link {}, up", k), 8, byte_clock));
   loader_bus_ = &add_link("animation unit's bus", static_cast<unsigned>(machine_.host.bus_bits), bus_clock);
   for (std::size_t k = 0; k < units; ++k)
     bus_links_.push_back(&add_link(fmt::format("bus {}", k), static_cast<unsigned>(machine_.host.bus_bits), bus_clock));
@@ -190,10 +192,7 @@ void Imogene::build_hosts() {
     return result;
   };
   // The last processor copies later than the first by the skew of the microinstruction.
-  const host::CopyTimes copies{timing_.clock, timing_.frame,
-                               object_processor::frame_start_cycles() +
-                                   decision_unit::skew(machine_.decision_unit.topology, machine_.processors(),
-                                                       cycles_of(machine_.object_processor.comparator_cycles)),
+  const host::CopyTimes copies{timing_.clock, timing_.frame, board_needs(machine_).copy(),
                                machine_.host.swap == host::Swap::unconditional};
   // The retraces are the video timing's, which comes first.
   video_timing_ = std::make_unique<video::VideoTimingModule>(
@@ -211,7 +210,7 @@ void Imogene::build_hosts() {
     computation_units_.push_back(std::make_unique<host::ComputationUnitModule>(
         fmt::format("computation_unit_{}", k).c_str(), static_cast<std::uint32_t>(k), *computations_[k], cost_,
         below(k + 1).size(), video_timing_->swapped,
-        host::ComputationUnitModule::Links{host_links_[k], below(k + 1), bus_links_[k], meshes_below(k + 1)}, copies));
+        host::ComputationUnitModule::Links{up_links_[k], below(k + 1), bus_links_[k], meshes_below(k + 1)}, copies));
   }
 }
 
@@ -336,6 +335,7 @@ void Imogene::note_shown(std::uint64_t frame, std::size_t field, const frame::Fr
   shown_.updated = video_timing_->updates() != updates_seen_;
   shown_.words_ahead = 0;
   for (const auto& board : board_modules_) shown_.words_ahead += board->words_ahead();
+  shown_.light_apart = video_timing_->objects_ahead() != table_loader_->tables_ahead();
   shown_.flops = 0;
   shown_.words = 0;
   if (shown_.updated) {
@@ -382,10 +382,10 @@ void Imogene::note_deadlines() {
 // What crossed the links before the first picture is the initial load: bandwidth counts from there. The display's links
 // start with it.
 void Imogene::reset_host_links() {
-  for (stream::Link* link : host_links_) link->reset();
-  for (stream::Link* link : bus_links_) link->reset();
-  for (stream::Link* link : table_links_) link->reset();
-  loader_bus_->reset();
+  const std::uint64_t now = stream::picoseconds_now();
+  for (const auto* links : {&host_links_, &up_links_, &bus_links_, &table_links_})
+    for (stream::Link* link : *links) link->reset(now);
+  loader_bus_->reset(now);
 }
 
 void Imogene::run() {
@@ -412,7 +412,7 @@ void Imogene::close_books() {
   for (const auto& unit : computation_units_) books_.computation_units.push_back(unit->occupancy(end_ps_));
   for (std::size_t i = 0; i < books_.table_loaders.size(); ++i)
     books_.table_loaders[i] = table_loader_->occupancy(i, end_ps_);
-  books_.links.assign(links_.begin(), links_.end());
+  for (const stream::Link& link : links_) books_.links.push_back(link.at(end_ps_));
 }
 
 // A unit that needs longer than the displayed frames must not look as if it had nothing to do: the hosts finish the
@@ -423,7 +423,9 @@ void Imogene::settle() {
     return std::any_of(computation_units_.begin(), computation_units_.end(),
                        [](const auto& unit) { return unit->updates().size() < 2; });
   };
-  while (unsettled()) {
+  for (std::uint64_t waited = 0; unsettled(); ++waited) {
+    if (waited > kPatienceFrames)
+      throw ModelError("computation units", waited, "an update has not ended after so many video frames");
     sc_core::sc_start(stream::to_time(timing_.clock, timing_.frame));
     stream::rethrow_failure();
   }

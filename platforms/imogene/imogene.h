@@ -54,7 +54,10 @@ struct ShownFrame {
   std::uint64_t flops = 0;  // of the update
   std::uint64_t words = 0;
   std::uint64_t pieces_dropped = 0;  // of clipped triangles, that found no processor
-  std::uint64_t words_ahead = 0;     // in use, of an update that the hosts have not finished: the picture is torn
+  // A torn picture: words in use that belong to an update which the computation units have not finished; objects of one
+  // frame in the light of another.
+  std::uint64_t words_ahead = 0;
+  bool light_apart = false;
   std::uint64_t late_table_lines = 0;
   std::uint64_t first_pixel_ps = 0;  // of the field, since the first displayed frame's retrace began
   std::uint64_t last_pixel_ps = 0;
@@ -138,6 +141,7 @@ class Imogene {
 
   std::deque<stream::Link> links_;
   std::vector<stream::Link*> host_links_;   // to unit k, from whoever feeds it
+  std::vector<stream::Link*> up_links_;     // from unit k
   std::vector<stream::Link*> bus_links_;    // of unit k
   std::vector<stream::Link*> board_links_;  // of board k
   std::vector<stream::Link*> table_links_;

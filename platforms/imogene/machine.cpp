@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "modules/decision_unit/decision_unit.h"
 #include "modules/object_processor/microprogram.h"
 #include "src/base/fixed_point.h"
 
@@ -12,7 +13,31 @@ namespace {
 
 constexpr std::uint64_t kMostProcessors = std::uint64_t{1} << 31;  // they are numbered in 32 bits
 
+// The frame start must fit the retrace; where every retrace copies, each copy must end before the next begins.
+void check_retrace(const Machine& machine) {
+  const video::Timing timing = video::timing(machine.video);
+  const BoardNeeds needs = board_needs(machine);
+  if (needs.frame_start > timing.vertical_retrace)
+    throw InputError({"", 0, "video.vertical_retrace_us",
+                      fmt::format("the frame start takes {} pixel clocks, and the vertical retrace has {}",
+                                  needs.frame_start.count(), timing.vertical_retrace.count())});
+  if (machine.host.swap == host::Swap::unconditional && needs.copy() >= timing.frame)
+    throw InputError(
+        {"", 0, "host.swap",
+         fmt::format("copied at every retrace, a copy of {} pixel clocks (the last of {} processors is {} "
+                     "behind the first) does not end before the next, {} later; a tree, fewer processors "
+                     "or \"global\" would do",
+                     needs.copy().count(), machine.processors(), needs.skew.count(), timing.frame.count())});
+}
+
 }  // namespace
+
+BoardNeeds board_needs(const Machine& machine) {
+  return {object_processor::line_start_cycles(machine.object_processor.slices()),
+          object_processor::frame_start_cycles(),
+          decision_unit::skew(machine.decision_unit.topology, machine.processors(),
+                              Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)))};
+}
 
 void Machine::declare(parameter::Table& table) {
   table.integer("schema", schema, {1, 1},
@@ -57,6 +82,7 @@ void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
            fmt::format("the line start takes {} pixel clocks{}, and horizontal blanking has {}", line_start.count(),
                        timing.fields > 1 ? " (interlaced: two lines' work)" : "", timing.horizontal_blanking.count())});
   });
+  gather([&] { check_retrace(*this); });
   if (processors() > kMostProcessors)
     diagnostics.add({file, 0, "host.processors_per_unit",
                      fmt::format("{} units of {} are more than {} object processors", host.computation_units,

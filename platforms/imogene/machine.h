@@ -39,6 +39,15 @@ struct Machine {
   unsigned material_bits() const;  // of a link word: enough for every material, at least 1
 };
 
+// What the object boards must do before pixels come, in pixel clocks.
+struct BoardNeeds {
+  Cycles line_start;   // the line start microprogram, once
+  Cycles frame_start;  // the copy of loading RAMs: in every retrace C comes back, which the sums of lines have replaced
+  Cycles skew;         // by which the last processor of a pipeline is behind the first; 0 in a tree
+  Cycles copy() const { return skew + frame_start; }  // until the last processor has copied
+};
+BoardNeeds board_needs(const Machine& machine);
+
 // The grids of this machine's edge words. Throws InputError with the word width that would do, where none fits.
 geometry::SnapGrids snap_grids(const Machine& machine);
 

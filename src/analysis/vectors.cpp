@@ -33,13 +33,12 @@ report::VectorsTiming timing_of(const imogene::Imogene& platform) {
   t.vertical_retrace_cycles = video.vertical_retrace.count();
   t.line_cycles = video.line.count();
   t.horizontal_blanking_cycles = video.horizontal_blanking.count();
-  t.frame_start_cycles = object_processor::frame_start_cycles().count();
-  t.line_start_cycles = object_processor::line_start_cycles(machine.object_processor.slices()).count();
+  const imogene::BoardNeeds needs = imogene::board_needs(machine);
+  t.frame_start_cycles = needs.frame_start.count();
+  t.line_start_cycles = needs.line_start.count();
   t.prenormalisation_cycles = count(machine.object_processor.prenormalisation_cycles);
   t.decision_cycles = platform.decision_latency().count();
-  t.skew_cycles = decision_unit::skew(machine.decision_unit.topology, machine.processors(),
-                                      Cycles(count(machine.object_processor.comparator_cycles)))
-                      .count();
+  t.skew_cycles = needs.skew.count();
   t.shading_cycles = machine.shading.total_latency().count();
   const std::uint64_t lines = count(machine.video.lines) / video.fields;
   const std::uint64_t to_last = (video.line * (lines - 1) + Cycles(count(machine.video.columns) - 1)).count();

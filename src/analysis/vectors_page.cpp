@@ -50,7 +50,7 @@ std::string loading(const VectorsManifest& v) {
   const std::string torn = v.words_ahead == 0 ? ""
                                               : fmt::format(
                                                     "\nThis picture is torn: {} of the words belong to an update that "
-                                                    "the hosts had not finished when the RAMs were copied. "
+                                                    "the computation units had not finished when the RAMs were copied. "
                                                     "Where the old words\nand the new have different binary points, "
                                                     "`index.csv` values the new ones by that of the old.\n",
                                                     v.words_ahead);

@@ -27,8 +27,9 @@ void print_summary(const report::VectorsManifest& manifest, const std::string& d
       grouped(t.first_pixel_decision_cycle), grouped(t.last_pixel_decision_cycle), grouped(t.first_pixel_rgb_cycle),
       grouped(t.last_pixel_rgb_cycle));
   if (manifest.words_ahead > 0)
-    text += fmt::format("{} words belong to an update that the hosts had not finished: the picture is torn.\n",
-                        grouped(manifest.words_ahead));
+    text +=
+        fmt::format("{} words belong to an update that the computation units had not finished: the picture is torn.\n",
+                    grouped(manifest.words_ahead));
   if (manifest.machine.carry_clock != "clock1")
     text += "Warning: ep1.carry_clock = \"clock2\" loses carries: the words of pixels are not A x + B (y + 1) + C'.\n";
   text += fmt::format("{}/{}, {}: {} files and their digests\n", directory, report::kVectorsPage,

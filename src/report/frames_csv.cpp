@@ -13,7 +13,8 @@ constexpr const char* kFrameColumns =
     "frame,animation_frame,last_animation_frame,first_pixel_ps,last_pixel_ps,"
     "drawn_triangles,facing_triangles,back_face_triangles,degenerate_triangles,outside_triangles,"
     "piece_processors,dropped_pieces,snap_fraction_bits,covered_pixels,fragment_pixels,"
-    "host_flop,sent_words,words_ahead,late_table_lines,line_slack_cycles,retrace_slack_cycles,host_slack_us";
+    "host_flop,sent_words,words_ahead,light_apart,late_table_lines,line_slack_cycles,retrace_slack_cycles,host_slack_"
+    "us";
 constexpr const char* kErrorColumns[] = {"compared_pixels",
                                          "missing_pixels",
                                          "extra_pixels",
@@ -43,11 +44,12 @@ std::string frames_csv(const run::Result& result) {
     for (const char* column : kErrorColumns) text += fmt::format(",{}_{}", name, column);
   text += '\n';
   for (const run::FrameFigures& f : result.frames) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", f.frame, f.animation_frame,
-                        f.last_animation_frame, f.first_pixel_ps, f.last_pixel_ps, f.drawn, f.facing, f.back_faces,
-                        f.degenerate, f.outside, f.pieces, f.pieces_dropped, f.snap_fraction_bits, f.covered_pixels,
-                        f.fragments, f.host_flops, f.words_sent, f.words_ahead, f.late_table_lines, f.line_slack_cycles,
-                        f.retrace_slack_cycles, f.host_slack_us ? fmt::format("{:.6g}", *f.host_slack_us) : "");
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", f.frame,
+                        f.animation_frame, f.last_animation_frame, f.first_pixel_ps, f.last_pixel_ps, f.drawn, f.facing,
+                        f.back_faces, f.degenerate, f.outside, f.pieces, f.pieces_dropped, f.snap_fraction_bits,
+                        f.covered_pixels, f.fragments, f.host_flops, f.words_sent, f.words_ahead, f.light_apart ? 1 : 0,
+                        f.late_table_lines, f.line_slack_cycles, f.retrace_slack_cycles,
+                        f.host_slack_us ? fmt::format("{:.6g}", *f.host_slack_us) : "");
     for (const std::string& name : references) {
       const auto found = std::find_if(f.errors.begin(), f.errors.end(),
                                       [&](const reference::ErrorFigures& e) { return e.reference == name; });

@@ -72,7 +72,7 @@ void visit(Visitor& v, run::Answer& a) {
   v.value("initial_load_bytes",
           {"bytes", kCount, "of meshes that cross the links once, each to the unit that keeps it"},
           a.initial_load_bytes);
-  v.value("torn_frames", {"frames", kCount, "displayed frames that show a part of an unfinished update"},
+  v.value("torn_frames", {"frames", kCount, "displayed frames with words or light of two animation frames"},
           a.torn_frames);
   v.value("display_works", {"", kFormula, "whether every unit behind the host keeps its deadlines"}, a.display_works);
   v.texts("limits", {"", kFormula, "one sentence for everything that keeps the machine from its rate"}, a.limits);
@@ -239,9 +239,11 @@ void visit(Visitor& v, run::FrameFigures& f) {
           f.host_flops);
   v.value("words_sent", {"words", kCount, "written to the object boards for this frame"}, f.words_sent);
   v.value("words_ahead",
-          {"words", kCount, "in use that belong to an update which the hosts have not finished: the picture is torn"},
+          {"words", kCount, "in use that belong to an update which the computation units have not finished"},
           f.words_ahead);
-  v.derived("torn", {"", kFormula, "words_ahead > 0"}, f.words_ahead > 0);
+  v.value("light_apart", {"", kCount, "whether objects of one animation frame are shown in the light of another"},
+          f.light_apart);
+  v.derived("torn", {"", kFormula, "words_ahead > 0 or light_apart"}, f.torn());
   v.value("late_table_lines", {"lines", kCount, "shaded from half-written tables"}, f.late_table_lines);
   v.value("line_slack_cycles", {"pixel clocks", kFormula, "left at its worst line"}, f.line_slack_cycles);
   v.value("retrace_slack_cycles", {"pixel clocks", kFormula, "left of its vertical retrace"}, f.retrace_slack_cycles);

@@ -43,14 +43,12 @@ std::string limits_section(const run::Result& result) {
       quantity(a.latency_last_pixel_us)));
   text += sentence_line(fmt::format(
       "First picture after {} of loading: {} us, {} bytes of meshes, which stay with the hosts. What follows is "
-      "without "
-      "it.",
+      "without it.",
       counted(a.initial_load_frames, "frame", "frames"), quantity(a.initial_load_us), grouped(a.initial_load_bytes)));
   if (a.torn_frames > 0)
-    text +=
-        sentence_line(fmt::format("{} of {} displayed frames are torn: loading RAMs were copied while they were "
-                                  "being written.",
-                                  grouped(a.torn_frames), grouped(result.frame_count)));
+    text += sentence_line(
+        fmt::format("{} of {} displayed frames are torn: they have words or light of two animation frames.",
+                    grouped(a.torn_frames), grouped(result.frame_count)));
   return text;
 }
 
@@ -124,7 +122,8 @@ std::string deadlines_section(const run::Result& result) {
   table.row({"hosts' update", d.host.shown ? fmt::format("frame {}", d.host.frame) : "the next one",
              in_clocks(static_cast<std::int64_t>(d.host.used_cycles) + d.host.slack_cycles),
              grouped(d.host.used_cycles), in_clocks(d.host.slack_cycles), in_us(d.host.slack_us),
-             "host cycles of " + counted(d.host.video_frames, "video frame", "video frames"),
+             fmt::format("host cycles of a video frame; it takes {}",
+                         counted(d.host.video_frames, "video frame", "video frames")),
              "links, arithmetic and bus of the slowest unit"});
   return heading("Deadlines") + table.text() +
          sentence_line(

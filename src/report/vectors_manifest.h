@@ -82,7 +82,7 @@ struct VectorsManifest {
   std::uint64_t frame = 0;
   std::uint64_t field = 0;           // of it, where it has two: 0 even lines, 1 odd lines
   std::int64_t animation_frame = 0;  // the pose that was last shown whole
-  std::uint64_t words_ahead = 0;     // of an update that the hosts have not finished: the picture is torn
+  std::uint64_t words_ahead = 0;     // of an update that the units have not finished: the objects are torn
   VectorsMachine machine;
   VectorsShading shading;
   VectorsTiming timing;

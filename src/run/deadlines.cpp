@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "modules/object_processor/microprogram.h"
 #include "src/run/imogene_budgets.h"
 
 namespace rastertlm::run {
@@ -23,33 +22,28 @@ double microseconds(const Clock& clock, std::int64_t cycles) {
 
 }  // namespace
 
-BoardNeeds board_needs(const imogene::Machine& machine) {
-  return {object_processor::line_start_cycles(machine.object_processor.slices()),
-          object_processor::frame_start_cycles(),
-          decision_unit::skew(machine.decision_unit.topology, machine.processors(),
-                              Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)))};
-}
-
 Slack line_slack(const video::Timing& timing, const BoardNeeds& needs, std::size_t line, Cycles tables_wait) {
   Cycles has = timing.horizontal_blanking;
   Cycles needed = needs.line_start * timing.lines_advanced(line);
   if (line < timing.fields) {
     has += timing.vertical_retrace;
-    needed += needs.skew + needs.frame_start;
+    needed += needs.copy();
   }
   const Slack boards{has, needed, "line start"};
   return tables_wait == Cycles(0) ? boards : less_of(boards, {timing.line_start(line), tables_wait, "table load"});
 }
 
 Slack retrace_slack(const video::Timing& timing, const BoardNeeds& needs, Cycles table_load) {
-  return less_of({timing.vertical_retrace, needs.skew + needs.frame_start, "frame start"},
+  return less_of({timing.vertical_retrace, needs.copy(), "frame start"},
                  {timing.vertical_retrace, table_load, "table load"});
 }
 
 DeadlineMeter::DeadlineMeter(const imogene::Imogene& platform)
-    : timing_(platform.timing()), host_clock_(platform.cost().clock()), needs_(board_needs(platform.machine())) {
+    : timing_(platform.timing()),
+      host_clock_(platform.cost().clock()),
+      needs_(imogene::board_needs(platform.machine())) {
   worst_.retrace.available_cycles = timing_.vertical_retrace.count();
-  worst_.retrace.boards_cycles = (needs_.skew + needs_.frame_start).count();
+  worst_.retrace.boards_cycles = needs_.copy().count();
   worst_.retrace.slack_cycles = kNothingYet;
   worst_.lines.available_cycles = timing_.horizontal_blanking.count();
   worst_.lines.slack_cycles.assign(static_cast<std::size_t>(platform.machine().video.lines), kNothingYet);
@@ -84,15 +78,16 @@ void DeadlineMeter::add_lines(const imogene::ShownFrame& shown, FrameFigures& fi
   }
 }
 
-// A host that is ready just when a retrace comes is in time, so the time that is left is never negative.
+// An update is to be there at the next retrace; what is missing comes later by whole video frames.
 void DeadlineMeter::add_host(const imogene::ShownFrame& shown, FrameFigures& figures) {
-  const std::uint64_t has_ps = timing_.clock.picoseconds(timing_.frame * shown.host_frames);
-  const std::uint64_t used_ps = std::min(host_clock_.picoseconds(shown.host_cycles), has_ps);
-  const double slack_us = static_cast<double>(has_ps - used_ps) / kPicosecondsPerMicrosecond;
+  const std::uint64_t frame_ps = timing_.clock.picoseconds(timing_.frame);
+  const double slack_us =
+      (static_cast<double>(frame_ps) - static_cast<double>(host_clock_.picoseconds(shown.host_cycles))) /
+      kPicosecondsPerMicrosecond;
   figures.host_slack_us = figures.host_slack_us ? std::min(*figures.host_slack_us, slack_us) : slack_us;
-  if (shown.frame == 0 && shown.field == 0) return;                  // the initial load
-  const Cycles has = host_clock_.cycles_at(has_ps + 1) - Cycles(1);  // that end by then
-  const auto slack = static_cast<std::int64_t>((has - std::min(has, shown.host_cycles)).count());
+  if (shown.frame == 0 && shown.field == 0) return;                    // the initial load
+  const Cycles has = host_clock_.cycles_at(frame_ps + 1) - Cycles(1);  // that end by then
+  const auto slack = static_cast<std::int64_t>(has.count()) - static_cast<std::int64_t>(shown.host_cycles.count());
   if (slack < worst_.host.slack_cycles)
     worst_.host = {true, shown.frame, shown.host_frames, shown.host_cycles.count(), slack, slack_us};
 }

@@ -10,13 +10,7 @@
 
 namespace rastertlm::run {
 
-// What the object boards must do before pixels come, in pixel clocks.
-struct BoardNeeds {
-  Cycles line_start;   // the line start microprogram, once
-  Cycles frame_start;  // the copy of loading RAMs: in every retrace C comes back, which the sums of lines have replaced
-  Cycles skew;         // by which the last processor of a pipeline is behind the first; 0 in a tree
-};
-BoardNeeds board_needs(const imogene::Machine& machine);
+using imogene::BoardNeeds;
 
 // Pixel clocks that are left when line `line` of the picture begins. Horizontal blanking holds the line start, once
 // for each line advanced; the first line of a video frame has the vertical retrace too, which holds skew and frame

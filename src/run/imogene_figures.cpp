@@ -36,8 +36,7 @@ std::vector<UnitFigures> unit_figures(Imogene& platform) {
   for (std::size_t k = 0; k < platform.computation_units().size(); ++k)
     units.push_back(
         figures(fmt::format("computation unit {}", k), platform.cost().clock(), platform.books().computation_units[k]));
-  const std::uint64_t line_start =
-      object_processor::line_start_cycles(platform.machine().object_processor.slices()).count();
+  const imogene::BoardNeeds needs = imogene::board_needs(platform.machine());
   // Line starts of a displayed frame: one for each line that is passed.
   std::uint64_t line_starts = 0;
   for (std::uint64_t line = 0; line < lines_of(platform); ++line) line_starts += platform.timing().lines_advanced(line);
@@ -45,8 +44,9 @@ std::vector<UnitFigures> unit_figures(Imogene& platform) {
   for (std::size_t k = 0; k < platform.board_modules().size(); ++k) {
     const auto& board = *platform.board_modules()[k];
     units.push_back(display_unit(fmt::format("object board {}", k), platform, shown,
-                                 board.copies() * object_processor::frame_start_cycles().count() +
-                                     shown * line_starts * line_start + board.lines_sent() * columns_of(platform)));
+                                 shown * platform.timing().fields * needs.frame_start.count() +
+                                     shown * line_starts * needs.line_start.count() +
+                                     board.lines_sent() * columns_of(platform)));
   }
   const std::uint64_t pixels = platform.decision_module().lines_sent() * columns_of(platform);
   for (const char* name : {"decision unit", "shading processor", "video output"})

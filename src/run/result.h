@@ -32,7 +32,7 @@ struct Answer {
   std::uint64_t initial_load_frames = 0;  // video frames before the first picture
   double initial_load_us = 0.0;           // until the last unit has finished the first frame
   std::uint64_t initial_load_bytes = 0;   // of meshes, that stay in the units' memories
-  std::uint64_t torn_frames = 0;          // displayed frames that show a part of an unfinished update
+  std::uint64_t torn_frames = 0;          // displayed frames with words or light of two animation frames
   bool display_works = true;              // every unit behind the host keeps its deadlines
   std::vector<std::string> limits;        // one sentence for everything that keeps the machine from its rate
 };
@@ -129,7 +129,7 @@ struct Deadlines {
     std::uint64_t frame = 0;         // displayed frame that showed it first
     std::uint64_t video_frames = 0;  // that the update took
     std::uint64_t used_cycles = 0;   // of the slowest unit, from retrace to last word, in host cycles
-    std::int64_t slack_cycles = 0;   // host cycles to the retrace that copies
+    std::int64_t slack_cycles = 0;   // host cycles to the end of one video frame; negative: late
     double slack_us = 0.0;
   } host;
 };
@@ -154,7 +154,9 @@ struct FrameFigures {
   std::uint64_t fragments = 0;
   std::uint64_t host_flops = 0;  // all computation units; 0 where nothing was computed for this frame
   std::uint64_t words_sent = 0;
-  std::uint64_t words_ahead = 0;          // in use, of an update that the hosts have not finished: the picture is torn
+  std::uint64_t words_ahead = 0;  // in use, of an update that the computation units have not finished
+  bool light_apart = false;       // objects of one frame in the light of another
+  bool torn() const { return words_ahead > 0 || light_apart; }
   std::uint64_t late_table_lines = 0;     // shaded from half-written tables
   std::int64_t line_slack_cycles = 0;     // pixel clocks left at its worst line
   std::int64_t retrace_slack_cycles = 0;  // and of its retrace

@@ -95,6 +95,7 @@ void add_field(const imogene::ShownFrame& shown, FrameFigures& f) {
   f.host_flops += shown.flops;
   f.words_sent += shown.words;
   f.words_ahead += shown.words_ahead;
+  f.light_apart = f.light_apart || shown.light_apart;
   f.late_table_lines += shown.late_table_lines;
 }
 
@@ -211,7 +212,7 @@ Result simulate(const Inputs& inputs, const Options& options, const FrameSink& s
   result.budgets = imogene_budgets(*platform);
   result.answer = imogene_answer(*platform, result.budgets);
   result.answer.torn_frames = static_cast<std::uint64_t>(
-      std::count_if(result.frames.begin(), result.frames.end(), [](const auto& f) { return f.words_ahead > 0; }));
+      std::count_if(result.frames.begin(), result.frames.end(), [](const auto& f) { return f.torn(); }));
   result.deadlines = displayed.deadlines(*platform);
   result.links = link_figures(*platform);
   result.memories = memory_figures(*platform);

@@ -65,6 +65,7 @@ struct Hosts {
   std::unique_ptr<Animation> animation;
   SlotMap slots;
   std::deque<stream::Link> links;      // to unit k
+  std::deque<stream::Link> up_links;   // from unit k
   std::deque<stream::Link> bus_links;  // of unit k
   std::deque<Computation> computations;
   std::deque<StubBoard> boards;
@@ -94,6 +95,7 @@ struct Hosts {
     const auto processors = static_cast<std::uint32_t>(parameters.processors_per_unit);
     for (std::size_t k = 0; k < count; ++k) {
       links.emplace_back("link", 8, Clock::from_frequency_hz("bytes", 1'739'130));
+      up_links.emplace_back("link up", 8, Clock::from_frequency_hz("bytes", 1'739'130));
       bus_links.emplace_back("bus", 32, Clock::from_frequency_hz("words", 6'666'666));
       computations.emplace_back(world.resident, format(processors), slots.boards[k]);
       boards.emplace_back(("board_" + std::to_string(k)).c_str());
@@ -106,7 +108,7 @@ struct Hosts {
     for (std::size_t k = 0; k < count; ++k) {
       units.emplace_back(("computation_unit_" + std::to_string(k)).c_str(), static_cast<std::uint32_t>(k),
                          computations[k], *cost, fed(k + 1).size(), swapped,
-                         ComputationUnitModule::Links{&links[k], below(k + 1), &bus_links[k]}, copies);
+                         ComputationUnitModule::Links{&up_links[k], below(k + 1), &bus_links[k]}, copies);
       units[k].ready.bind(ready[k]);
       units[k].bus.bind(boards[k].bus);
     }

@@ -51,11 +51,11 @@ class Surroundings : public sc_core::sc_module {
     payload.clear_extension(&number);
     return payload.get_response_status();
   }
-  void retrace(bool copy, bool swap = true) {
+  void retrace(bool copy, bool whole = true) {
     stream::SyncPayload payload;
     payload.kind = stream::SyncPayload::Kind::retrace;
     payload.copy = copy;
-    payload.swap = copy && swap;
+    payload.whole = copy && whole;
     sc_core::sc_time delay;
     sync->b_transport(payload, delay);
   }
@@ -123,7 +123,7 @@ TEST(ObjectBoardModule, WordsWaitForARetraceThatCopies) {
   EXPECT_EQ(m.board.lines_sent(), 3U);
 }
 
-// What a copy takes of an update that the hosts have not finished is ahead of it; the swap that ends it leaves none.
+// What a copy takes of an update that the hosts have not finished is ahead of it; the copy of the whole leaves none.
 TEST(ObjectBoardModule, CountsTheWordsOfAnUnfinishedUpdate) {
   Machine m;
   m.around.write(bus_address(kBoard, 3, 0), everywhere(1000), 77);

@@ -29,10 +29,31 @@ TEST(Link, CountsWordsCyclesAndWholeBytes) {
 TEST(Link, StartsAgain) {
   Link link("bus", 32, Clock::from_frequency_hz("c", 1'000'000));
   link.record(10, Cycles(30));
-  link.reset();
+  link.reset(0);
   EXPECT_EQ(link.words(), 0U);
   EXPECT_EQ(link.bytes(), 0U);
   EXPECT_EQ(link.active(), Cycles(0));
+}
+
+// What is under way when counting starts or ends is counted as far as it has crossed then, to the last whole word.
+TEST(Link, CountsWhatHasCrossed) {
+  Link link("link", 8, Clock::from_frequency_hz("bytes", 1'000'000));
+  link.record(100, Cycles(100), 1'000'000, 101'000'000);  // a byte a microsecond
+  EXPECT_EQ(link.at(1'000'000).words(), 0U);
+  EXPECT_EQ(link.at(1'999'999).words(), 0U);
+  EXPECT_EQ(link.at(2'000'000).words(), 1U);
+  EXPECT_EQ(link.at(51'000'000).words(), 50U);
+  EXPECT_EQ(link.at(51'000'000).active(), Cycles(50));
+  EXPECT_EQ(link.at(101'000'000).words(), 100U);
+  EXPECT_EQ(link.at(900'000'000).words(), 100U);
+  link.reset(31'000'000);
+  EXPECT_EQ(link.at(31'000'000).words(), 0U);
+  EXPECT_EQ(link.at(51'000'000).words(), 20U);
+  EXPECT_EQ(link.words(), 70U);
+  link.record(10, Cycles(10), 200'000'000, 210'000'000);
+  EXPECT_EQ(link.at(205'000'000).words(), 75U);
+  link.reset(300'000'000);
+  EXPECT_EQ(link.words(), 0U);
 }
 
 }  // namespace
