@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "modules/decision_unit/parameters.h"
+#include "modules/object_processor/line_composer.h"
 #include "src/base/units.h"
 #include "src/frame/scan_line.h"
 
@@ -30,12 +32,18 @@ class DecisionUnit {
   // looked at.
   void merge(std::span<frame::FragmentLine* const> lines);
 
+  // The same where the boards' lines are spans: into `out`, of equally many columns. The nearest and the counts do not
+  // depend on the order of comparison, so tree and chain are one.
+  void merge(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
+             object_processor::LineComposer& composer, frame::FragmentLine& out);
+
   const DecisionCounters& counters() const { return counters_; }
 
  private:
   DecisionUnitParameters parameters_;
   std::uint32_t background_depth_;
   DecisionCounters counters_;
+  std::vector<std::uint64_t> seen_;  // of a line, by all boards
 };
 
 // One comparator on a whole line: `into` becomes the nearer of both at every pixel, its own where depths are equal;

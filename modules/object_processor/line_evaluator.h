@@ -72,6 +72,22 @@ constexpr void narrow(const LineWord& word, Interval& span) {
   }
 }
 
+// An edge as an exact linear function of the pixel, a x + b y + c with y from 0, that stays inside the word on the
+// whole screen.
+struct HalfPlane {
+  std::int64_t a = 0;
+  std::int64_t b = 0;
+  std::int64_t c = 0;
+};
+// Those of three edges that do; the others could wrap somewhere.
+struct HalfPlanes {
+  std::array<HalfPlane, 3> planes{};
+  std::size_t count = 0;
+};
+HalfPlanes half_planes(const std::array<LinearWords, 3>& edges, WordFormat format, std::int32_t columns,
+                       std::int32_t lines);
+Interval touched_lines(const HalfPlanes& planes, WordFormat format, std::int32_t columns, std::int32_t lines);
+
 // The lines of a screen on which the three edges may all have sign bit 0 somewhere: conservative, and never less. An
 // edge that could wrap on the screen bounds nothing. `lines` and `columns` 1..16384.
 Interval touched_lines(const std::array<LinearWords, 3>& edges, WordFormat format, std::int32_t columns,

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <bit>
 
 #include "src/base/errors.h"
 
@@ -27,74 +27,125 @@ void compare_depth(std::uint32_t depth, std::uint32_t step, std::uint32_t mask, 
   }
 }
 
+// False where three edges bound the same side: no triangle of a scene has such edges.
+bool find_borders(const HalfPlanes& planes, Borders& borders) {
+  std::size_t lefts = 0;
+  std::size_t rights = 0;
+  for (const HalfPlane& plane : planes.planes) {
+    if (plane.a == 0) continue;  // bounds lines alone
+    std::size_t& count = plane.a > 0 ? lefts : rights;
+    if (count == 2) return false;
+    const std::size_t border = plane.a > 0 ? count : 2 + count;
+    const double inverse = 1.0 / static_cast<double>(plane.a);
+    borders.slope[border] = -static_cast<double>(plane.b) * inverse;
+    borders.offset[border] = (-static_cast<double>(plane.c) - 0.25) * inverse;
+    ++count;
+  }
+  constexpr double kFarAway = 1e9;
+  for (; lefts < 2; ++lefts) {
+    borders.slope[lefts] = 0.0;
+    borders.offset[lefts] = -kFarAway;
+  }
+  for (; rights < 2; ++rights) {
+    borders.slope[2 + rights] = 0.0;
+    borders.offset[2 + rights] = kFarAway;
+  }
+  return true;
+}
+
 }  // namespace
 
 ObjectBoard::ObjectBoard(const ObjectProcessorParameters& parameters, std::uint32_t processors,
-                         std::uint32_t first_processor, std::uint32_t columns, std::uint32_t lines, Visit visit)
+                         std::uint32_t first_processor, std::uint32_t columns, std::uint32_t lines, Visit visit,
+                         VectorVariant variant)
     : parameters_(parameters),
       format_(static_cast<unsigned>(parameters.word_bits)),
-      prenormaliser_(parameters),
+      prenormaliser_(parameters, variant),
       processors_(processors),
       first_processor_(first_processor),
       columns_(columns),
       lines_(lines),
       everything_(visit == Visit::everything),
       late_carry_(parameters.carry_clock == CarryClock::clock2 && parameters.slices() > 1),
-      bucket_begin_(std::size_t{lines} + 1, 0),
+      kernels_(span_kernels(variant)),
+      bucket_begin_(std::size_t{(lines + kBandLines - 1) / kBandLines} + 1, 0),
+      touched_by_(std::size_t{lines} + 1, 0),
       winner_(std::size_t{columns} + 1, 0) {
-  for (auto& component : normal_) component.resize(columns);
+  for (auto& component : normal_) component.resize(columns + frame::FragmentLine::kSpare);
   if (everything_ && processors_ > 0) {
     writable(processors_ - 1, 0);
     copy();
   }
 }
 
-ObjectBoard::Slot ObjectBoard::parked_slot(std::uint32_t slot) const {
-  const ProcessorWords words = to_words(parked_triangle(format_.bits()));
-  const std::uint32_t object = first_processor_ + slot + 1;
-  return {words, words, object, object};
+ObjectBoard::Loading ObjectBoard::parked_slot(std::uint32_t slot) const {
+  return {to_words(parked_triangle(format_.bits())), first_processor_ + slot + 1};
 }
 
-ObjectBoard::Slot& ObjectBoard::writable(std::uint32_t slot, std::size_t index) {
+ObjectBoard::Loading& ObjectBoard::writable(std::uint32_t slot, std::size_t index) {
   if (slot >= processors_ || index >= kWords)
     throw ModelError("object_board", 0,
                      fmt::format("bus write to slot {} word {}: the board has {} slots of {} words", slot, index,
                                  processors_, kWords));
-  while (slots_.size() <= slot) {
-    slots_.push_back(parked_slot(static_cast<std::uint32_t>(slots_.size())));
-    changed_.push_back(0);
+  while (loading_.size() <= slot) {
+    loading_.push_back(parked_slot(static_cast<std::uint32_t>(loading_.size())));
+    edges_.emplace_back();
+    sources_.emplace_back();
+    borders_.emplace_back();
     intervals_.emplace_back();
+    careful_.push_back(0);
+    changed_.push_back(0);
+    load(static_cast<std::uint32_t>(loading_.size() - 1));
   }
   if (changed_[slot] == 0) {
     changed_[slot] = 1;
     changes_.push_back(slot);
   }
-  return slots_[slot];
+  return loading_[slot];
 }
 
-void ObjectBoard::write_word(std::uint32_t slot, std::size_t index, std::uint32_t value) {
-  writable(slot, index).loading[index] = value & (index == kMaterialIndex ? kMaterialMask : format_.mask());
+void ObjectBoard::write_words(std::uint32_t slot, std::size_t index, std::span<const std::uint32_t> values) {
+  if (values.empty()) return;
+  ProcessorWords& words = writable(slot, index + values.size() - 1).words;
+  for (const std::uint32_t value : values) {
+    words[index] = value & (index == kMaterialIndex ? kMaterialMask : format_.mask());
+    ++index;
+  }
 }
 
-void ObjectBoard::write(std::uint32_t slot, const TriangleWords& triangle) {
-  const ProcessorWords words = to_words(triangle);
-  for (std::size_t index = 0; index < kWords; ++index) write_word(slot, index, words[index]);
-}
+void ObjectBoard::write(std::uint32_t slot, const TriangleWords& triangle) { write_words(slot, 0, to_words(triangle)); }
 
 void ObjectBoard::park(std::uint32_t slot) { write(slot, parked_triangle(format_.bits())); }
 
-void ObjectBoard::set_object(std::uint32_t slot, std::uint32_t object) { writable(slot, 0).loading_object = object; }
+void ObjectBoard::set_object(std::uint32_t slot, std::uint32_t object) { writable(slot, 0).object = object; }
 
 TriangleWords ObjectBoard::loading(std::uint32_t slot) const {
-  return to_triangle(slot < slots_.size() ? slots_[slot].loading : parked_slot(slot).loading);
+  return to_triangle(slot < loading_.size() ? loading_[slot].words : parked_slot(slot).words);
+}
+
+// The backup RAM: edges apart from what is shown where they cover.
+void ObjectBoard::load(std::uint32_t slot) {
+  const TriangleWords triangle = to_triangle(loading_[slot].words);
+  const auto plane = [](const LinearWords& words) { return frame::WordPlane{words.a, words.b, words.c}; };
+  edges_[slot] = triangle.edges;
+  sources_[slot] = {plane(triangle.depth),
+                    {plane(triangle.normals[0]), plane(triangle.normals[1]), plane(triangle.normals[2])},
+                    triangle.material,
+                    loading_[slot].object};
 }
 
 TriangleWords ObjectBoard::backup(std::uint32_t slot) const {
-  return to_triangle(slot < slots_.size() ? slots_[slot].backup : parked_slot(slot).backup);
+  if (slot >= loading_.size()) return to_triangle(parked_slot(slot).words);
+  const frame::FragmentSource& source = sources_[slot];
+  const auto words = [](const frame::WordPlane& plane) { return LinearWords{plane.a, plane.b, plane.c}; };
+  return {edges_[slot],
+          words(source.depth),
+          {words(source.normal[0]), words(source.normal[1]), words(source.normal[2])},
+          source.material};
 }
 
 std::uint32_t ObjectBoard::object_of_processor(std::uint32_t slot) const {
-  return slot < slots_.size() ? slots_[slot].object : first_processor_ + slot + 1;
+  return slot < loading_.size() ? sources_[slot].object : first_processor_ + slot + 1;
 }
 
 Interval ObjectBoard::lines_of_processor(std::uint32_t slot) const {
@@ -108,108 +159,130 @@ std::uint32_t ObjectBoard::slots_in_use() const {
 }
 
 std::uint64_t ObjectBoard::memory_bytes() const {
-  const std::uint64_t a_slot = sizeof(Slot) + sizeof(std::uint8_t) + sizeof(Interval);
+  const std::uint64_t a_slot = sizeof(Loading) + sizeof(Edges) + sizeof(frame::FragmentSource) + sizeof(Borders) +
+                               sizeof(Interval) + 2 * sizeof(std::uint8_t);
   const std::uint64_t indices = changes_.capacity() + bucket_begin_.capacity() + bucket_slots_.capacity() +
-                                active_.capacity() + merged_.capacity() + newcomers_.capacity();
-  return slots_.capacity() * a_slot + indices * sizeof(std::uint32_t) +
+                                touched_by_.capacity() + active_.capacity() + merged_.capacity();
+  return loading_.capacity() * a_slot + indices * sizeof(std::uint32_t) + spans_.capacity() * sizeof(BandSpans) +
          std::uint64_t{columns_} * 4 * sizeof(std::uint32_t);
 }
 
-Interval ObjectBoard::interval_of(const ProcessorWords& words) const {
+Interval ObjectBoard::interval_of(const Edges& edges, const HalfPlanes& planes) const {
   const Interval all{0, static_cast<std::int32_t>(lines_)};
-  const std::array<LinearWords, 3> edges = to_triangle(words).edges;
   // A constant negative edge never covers, whatever clocks the carry: 0 added to 0 makes none.
   if (everything_) return all;
   for (const LinearWords& edge : edges)
     if (edge.a == 0 && edge.b == 0 && (edge.c >> (format_.bits() - 1)) != 0) return {};
-  return late_carry_ ? all : touched_lines(edges, format_, static_cast<std::int32_t>(columns_), all.end);
+  return late_carry_ ? all : touched_lines(planes, format_, static_cast<std::int32_t>(columns_), all.end);
 }
 
 std::uint32_t ObjectBoard::copy() {
   for (const std::uint32_t slot : changes_) {
-    slots_[slot].backup = slots_[slot].loading;
-    slots_[slot].object = slots_[slot].loading_object;
-    intervals_[slot] = interval_of(slots_[slot].backup);
+    load(slot);
+    const HalfPlanes planes =
+        half_planes(edges_[slot], format_, static_cast<std::int32_t>(columns_), static_cast<std::int32_t>(lines_));
+    intervals_[slot] = interval_of(edges_[slot], planes);
+    careful_[slot] = planes.count < 3 || !find_borders(planes, borders_[slot]) ? 1 : 0;
     changed_[slot] = 0;
   }
   const auto copied = static_cast<std::uint32_t>(changes_.size());
   if (copied > 0) rebuild_buckets();
   changes_.clear();
-  current_line_ = kNoLine;
+  current_band_ = kNone;
+  spans_band_ = kNone;
   return copied;
 }
 
 void ObjectBoard::rebuild_buckets() {
-  // A counting sort by first line, which keeps the order of numbers.
+  // A counting sort by the band of the first line, which keeps the order of numbers.
   std::fill(bucket_begin_.begin(), bucket_begin_.end(), 0U);
+  std::fill(touched_by_.begin(), touched_by_.end(), 0U);
   std::uint32_t in_use = 0;
   for (const Interval& lines : intervals_) {
     if (lines.empty()) continue;
-    ++bucket_begin_[static_cast<std::size_t>(lines.begin) + 1];
+    ++bucket_begin_[static_cast<std::size_t>(lines.begin) / kBandLines + 1];
+    ++touched_by_[static_cast<std::size_t>(lines.begin)];
+    --touched_by_[static_cast<std::size_t>(lines.end)];  // modulo 2^32: sums from the first line on are right
     ++in_use;
   }
-  for (std::size_t line = 0; line < lines_; ++line) bucket_begin_[line + 1] += bucket_begin_[line];
+  for (std::size_t line = 0; line < lines_; ++line) touched_by_[line + 1] += touched_by_[line];
+  for (std::size_t band = 0; band + 1 < bucket_begin_.size(); ++band) bucket_begin_[band + 1] += bucket_begin_[band];
   bucket_slots_.resize(in_use);
-  active_.reserve(in_use);
-  merged_.reserve(in_use);
   std::vector<std::uint32_t> next(bucket_begin_.begin(), bucket_begin_.end() - 1);
   for (std::uint32_t slot = 0; slot < intervals_.size(); ++slot)
-    if (!intervals_[slot].empty()) bucket_slots_[next[static_cast<std::size_t>(intervals_[slot].begin)]++] = slot;
+    if (!intervals_[slot].empty())
+      bucket_slots_[next[static_cast<std::size_t>(intervals_[slot].begin) / kBandLines]++] = slot;
 }
 
-void ObjectBoard::select_processors(std::uint32_t line) {
-  if (line == current_line_) return;
-  const auto position = static_cast<std::int32_t>(line);
+void ObjectBoard::check_line(std::uint32_t line, std::size_t columns) const {
+  if (line >= lines_ || columns != columns_)
+    throw ModelError("object_board", 0,
+                     fmt::format("line {} of {} columns asked of a board of {} lines of {} columns", line, columns,
+                                 lines_, columns_));
+}
+
+// The slots that can touch a line of the band, in order of their numbers: those that could touch the last band and
+// last, and those that begin here.
+void ObjectBoard::select_band(std::uint32_t line) {
+  const std::uint32_t band = line / kBandLines;
+  if (band == current_band_) return;
+  const auto first = static_cast<std::int32_t>(band * kBandLines);
+  const auto last = static_cast<std::int32_t>(std::min(lines_, (band + 1) * kBandLines));
   merged_.clear();
-  if (current_line_ != kNoLine && line > current_line_) {
-    // What was active and lasts, merged with what began since and lasts.
-    newcomers_.clear();
-    for (std::uint32_t next = bucket_begin_[current_line_ + 1]; next < bucket_begin_[line + 1]; ++next)
-      if (intervals_[bucket_slots_[next]].end > position) newcomers_.push_back(bucket_slots_[next]);
-    if (line > current_line_ + 1) std::sort(newcomers_.begin(), newcomers_.end());  // those of one line are in order
-    std::erase_if(active_, [&](std::uint32_t slot) { return intervals_[slot].end <= position; });
-    std::merge(active_.begin(), active_.end(), newcomers_.begin(), newcomers_.end(), std::back_inserter(merged_));
+  if (current_band_ != kNone && band == current_band_ + 1) {
+    std::uint32_t next = bucket_begin_[band];
+    const std::uint32_t end = bucket_begin_[band + 1];
+    for (const std::uint32_t slot : active_) {
+      if (intervals_[slot].end <= first) continue;
+      while (next < end && bucket_slots_[next] < slot) merged_.push_back(bucket_slots_[next++]);
+      merged_.push_back(slot);
+    }
+    while (next < end) merged_.push_back(bucket_slots_[next++]);
+  } else if (band == 0) {
+    merged_.assign(bucket_slots_.begin(), bucket_slots_.begin() + bucket_begin_[1]);
   } else {
     for (std::uint32_t slot = 0; slot < intervals_.size(); ++slot)
-      if (intervals_[slot].holds(position)) merged_.push_back(slot);
+      if (!intervals_[slot].empty() && intervals_[slot].begin < last && intervals_[slot].end > first)
+        merged_.push_back(slot);
   }
   active_.swap(merged_);
-  current_line_ = line;
+  current_band_ = band;
 }
 
 void ObjectBoard::evaluate_line(std::uint32_t line, frame::FragmentLine& out) {
-  if (line >= lines_ || out.columns() != columns_)
-    throw ModelError("object_board", 0,
-                     fmt::format("line {} of {} columns asked of a board of {} lines of {} columns", line,
-                                 out.columns(), lines_, columns_));
-  select_processors(line);
-  if (active_.empty()) return;
+  check_line(line, out.columns());
+  select_band(line);
+  if (touched_by_[line] == 0) return;
   ++counters_.lines_evaluated;
-  counters_.processors_visited += active_.size();
+  counters_.processors_visited += touched_by_[line];
   touched_ = {static_cast<std::int32_t>(columns_), 0};
-  for (const std::uint32_t slot : active_) evaluate_processor(slot, line, out);
+  for (const std::uint32_t slot : active_)
+    if (intervals_[slot].holds(static_cast<std::int32_t>(line))) evaluate_processor(slot, line, out);
   if (!touched_.empty()) resolve_winners(line, out);
 }
 
+ObjectBoard::LineEdges ObjectBoard::line_edges(std::uint32_t slot, std::uint32_t line) const {
+  LineEdges at;
+  for (std::size_t edge = 0; edge < 3; ++edge) at.edges[edge] = format_.on_line(edges_[slot][edge], line);
+  const frame::WordPlane& depth = sources_[slot].depth;
+  at.depth = depth.b * (line + 1) + depth.c;
+  at.depth_step = depth.a;
+  return at;
+}
+
 void ObjectBoard::evaluate_processor(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out) {
-  const ProcessorWords& words = slots_[slot].backup;
   if (late_carry_) {
-    evaluate_late_carry(slot, words, line, out);
+    evaluate_late_carry(slot, line, out);
     return;
   }
-  LineEdges at;
-  for (std::size_t edge = 0; edge < 3; ++edge)
-    at.edges[edge] =
-        format_.on_line(words[word_index(edge, 0)], words[word_index(edge, 1)], words[word_index(edge, 2)], line);
-  at.depth = words[word_index(kDepth, 1)] * (line + 1) + words[word_index(kDepth, 2)];
-  at.depth_step = words[word_index(kDepth, 0)];
-  draw(slot, at, {0, static_cast<std::int32_t>(columns_)}, out);
+  const LineEdges at = line_edges(slot, line);
+  visit_spans(at, {0, static_cast<std::int32_t>(columns_)},
+              [&](const Interval& span) { draw_span(slot, at, span, out); });
 }
 
 // The line in two pieces: column 0, and the rest, which is linear.
-void ObjectBoard::evaluate_late_carry(std::uint32_t slot, const ProcessorWords& words, std::uint32_t line,
-                                      frame::FragmentLine& out) {
-  const TriangleWords triangle = to_triangle(words);
+void ObjectBoard::evaluate_late_carry(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out) {
+  const TriangleWords triangle = backup(slot);
   LineEdges first{};
   LineEdges rest{};
   for (std::size_t edge = 0; edge < 3; ++edge) {
@@ -221,11 +294,14 @@ void ObjectBoard::evaluate_late_carry(std::uint32_t slot, const ProcessorWords& 
   first.depth = depth.first;
   rest.depth = depth.start;
   rest.depth_step = triangle.depth.a;
-  draw(slot, first, {0, 1}, out);
-  draw(slot, rest, {1, static_cast<std::int32_t>(columns_)}, out);
+  visit_spans(first, {0, 1}, [&](const Interval& span) { draw_span(slot, first, span, out); });
+  visit_spans(rest, {1, static_cast<std::int32_t>(columns_)},
+              [&](const Interval& span) { draw_span(slot, rest, span, out); });
 }
 
-void ObjectBoard::draw(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out) {
+// Calls `draw` with each run of inside pixels of `span`.
+template <class Draw>
+void ObjectBoard::visit_spans(const LineEdges& at, Interval span, const Draw& draw) {
   const auto last_column = static_cast<std::int32_t>(columns_) - 1;
   std::uint32_t wrapping = 0;
   for (std::size_t edge = 0; edge < 3; ++edge) {
@@ -236,14 +312,14 @@ void ObjectBoard::draw(std::uint32_t slot, const LineEdges& at, Interval span, f
   }
   if (span.empty()) return;
   if (wrapping == 0)
-    draw_span(slot, at, span, out);
+    draw(span);
   else
-    draw_stepped(slot, at, wrapping, span, out);
+    visit_stepped(at, wrapping, span, draw);
 }
 
-// Edges that could wrap are looked at pixel by pixel; runs of inside pixels are drawn as spans.
-void ObjectBoard::draw_stepped(std::uint32_t slot, const LineEdges& at, std::uint32_t wrapping, Interval span,
-                               frame::FragmentLine& out) {
+// Edges that could wrap are looked at pixel by pixel.
+template <class Draw>
+void ObjectBoard::visit_stepped(const LineEdges& at, std::uint32_t wrapping, Interval span, const Draw& draw) {
   counters_.pixels_stepped += static_cast<std::uint64_t>(span.end - span.begin);
   std::int32_t run = span.begin;
   for (std::int32_t column = span.begin; column <= span.end; ++column) {
@@ -255,9 +331,82 @@ void ObjectBoard::draw_stepped(std::uint32_t slot, const LineEdges& at, std::uin
       inside = (word >> 31) == 0;
     }
     if (inside) continue;
-    if (run < column) draw_span(slot, at, {run, column}, out);
+    if (run < column) draw({run, column});
     run = column + 1;
   }
+}
+
+void ObjectBoard::find_spans() {
+  if (spans_band_ == current_band_) return;
+  spans_band_ = current_band_;
+  spans_.resize(active_.size());
+  spans_careful_ = false;
+  spans_doubtful_ = 0;
+  BandRequest request{0, 0, 0, current_band_ * kBandLines, columns_, format_.mask()};
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    const std::uint32_t slot = active_[i];
+    if (careful_[slot] != 0) {
+      spans_careful_ = true;
+      return;  // lines of this band are found one by one
+    }
+    request.slot = slot;
+    request.begin = intervals_[slot].begin;
+    request.end = intervals_[slot].end;
+    kernels_.band(borders_[slot], sources_[slot], request, spans_[i]);
+    spans_doubtful_ |= spans_[i].doubtful;
+  }
+}
+
+void ObjectBoard::cover_line(std::uint32_t line, frame::CoveredLine& out) {
+  check_line(line, columns_);
+  select_band(line);
+  out.count = 0;
+  out.seen_pixels = 0;
+  if (touched_by_[line] == 0) {
+    std::fill(out.seen.begin(), out.seen.end(), 0U);
+    return;
+  }
+  ++counters_.lines_evaluated;
+  counters_.processors_visited += touched_by_[line];
+  find_spans();
+  const std::uint32_t line_in_band = line % kBandLines;
+  const std::uint64_t in_before = counters_.fragments_in;
+  if (spans_careful_ || (spans_doubtful_ >> line_in_band & 1U) != 0) {
+    cover_carefully(line, out);
+  } else {
+    if (out.spans.size() < active_.size()) out.spans.resize(active_.size());
+    const LineTotals totals = kernels_.line({spans_.data(), spans_.size(), line_in_band, sources_.data(),
+                                             out.spans.data(), out.seen.data(), out.seen.size()});
+    out.count = totals.spans;
+    out.seen_pixels = totals.seen_pixels;
+    counters_.fragments_in += totals.fragments;
+  }
+  counters_.fragments_kept += out.seen_pixels;
+  counters_.fragments_hidden += counters_.fragments_in - in_before - out.seen_pixels;
+}
+
+// A line on which an edge could wrap, or a depth reach the word of nothing: span by span, as evaluate_line draws it.
+void ObjectBoard::cover_carefully(std::uint32_t line, frame::CoveredLine& out) {
+  std::fill(out.seen.begin(), out.seen.end(), 0U);
+  for (const std::uint32_t slot : active_) {
+    if (!intervals_[slot].holds(static_cast<std::int32_t>(line))) continue;
+    const LineEdges at = line_edges(slot, line);
+    visit_spans(at, {0, static_cast<std::int32_t>(columns_)}, [&](const Interval& span) {
+      counters_.fragments_in += static_cast<std::uint64_t>(span.end - span.begin);
+      cover_span(slot, at, span, out);
+    });
+  }
+  for (const std::uint64_t word : out.seen) out.seen_pixels += static_cast<std::uint64_t>(std::popcount(word));
+}
+
+void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::CoveredLine& out) const {
+  const auto begin = static_cast<std::uint32_t>(span.begin);
+  const auto end = static_cast<std::uint32_t>(span.end);
+  if (out.spans.size() <= out.count) out.spans.resize(2 * out.count + 16);
+  out.spans[out.count++] = {begin, end, &sources_[slot]};
+  for (std::uint32_t column = begin; column < end; ++column)
+    if (((at.depth + at.depth_step * column) & format_.mask()) != format_.mask())
+      out.seen[column / 64] |= std::uint64_t{1} << (column % 64);
 }
 
 void ObjectBoard::draw_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out) {
@@ -311,17 +460,17 @@ void ObjectBoard::resolve_winners(std::uint32_t line, frame::FragmentLine& out) 
 
 void ObjectBoard::fill_run(std::uint32_t slot, std::uint32_t line, std::size_t begin, std::size_t end,
                            frame::FragmentLine& out) {
-  const ProcessorWords& words = slots_[slot].backup;
+  const frame::FragmentSource& source = sources_[slot];
   const auto first = static_cast<std::uint32_t>(begin);
   const auto last = static_cast<std::uint32_t>(end);
   for (std::size_t component = 0; component < 3; ++component) {
-    const std::size_t processor = kNormalX + component;
-    const std::uint32_t step = words[word_index(processor, 0)];
+    const frame::WordPlane& plane = source.normal[component];
+    const std::uint32_t step = plane.a;
     std::uint32_t* __restrict normal = normal_[component].data();
-    std::uint32_t start = words[word_index(processor, 1)] * (line + 1) + words[word_index(processor, 2)];
+    std::uint32_t start = plane.b * (line + 1) + plane.c;
     if (late_carry_) {
       const LateCarryLine late =
-          late_carry_line({step, words[word_index(processor, 1)], words[word_index(processor, 2)]}, parameters_, line);
+          late_carry_line({step, plane.b, plane.c}, parameters_, line);
       start = late.start;
       if (begin == 0) normal[0] = late.first;
     }
@@ -332,8 +481,8 @@ void ObjectBoard::fill_run(std::uint32_t slot, std::uint32_t line, std::size_t b
       word += step;
     }
   }
-  const auto material = static_cast<std::uint8_t>(words[kMaterialIndex]);
-  const std::uint32_t object = slots_[slot].object;
+  const auto material = static_cast<std::uint8_t>(source.material);
+  const std::uint32_t object = source.object;
   std::uint8_t* __restrict materials = out.material.data();
   std::uint32_t* __restrict objects = out.object.data();
   for (std::size_t column = begin; column < end; ++column) {

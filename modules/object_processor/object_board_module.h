@@ -41,9 +41,10 @@ class ObjectBoardModule : public sc_core::sc_module {
 
   std::uint32_t board_number_;
   ObjectBoard& board_;
-  Timing timing_;
+  sc_core::sc_time first_pixel_;
   stream::Link& link_;
   stream::LinePool pool_;
+  frame::CoveredLine covered_;
   stream::FragmentPayload payload_;
   std::uint64_t words_loaded_ = 0;
   std::uint64_t lines_sent_ = 0;

@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "modules/object_processor/parameters.h"
+#include "modules/object_processor/span_kernels.h"
+#include "src/base/vector_variant.h"
 
 namespace rastertlm::object_processor {
 
@@ -18,13 +20,13 @@ using LinkNormal = std::array<std::uint16_t, 3>;
 // K.
 class Prenormaliser {
  public:
-  explicit Prenormaliser(const ObjectProcessorParameters& parameters);
+  explicit Prenormaliser(const ObjectProcessorParameters& parameters, VectorVariant variant = vector_variant());
 
   // `normal`: words of word_bits, two's complement; bits above are ignored.
   LinkNormal operator()(const std::array<std::uint32_t, 3>& normal) const;
   unsigned shift_of(const std::array<std::uint32_t, 3>& normal) const;  // K
 
-  // The same for `count` pixels; arrays do not overlap.
+  // The same for `count` pixels; arrays do not overlap, and have 16 pixels to spare.
   void line(std::array<const std::uint32_t*, 3> normal, std::array<std::uint16_t*, 3> link, std::size_t count) const;
 
   unsigned largest_shift() const { return largest_shift_; }  // K is in 0..largest_shift: 12 for 24 and 12 bits
@@ -34,6 +36,7 @@ class Prenormaliser {
   unsigned word_bits_;
   unsigned normal_bits_;
   unsigned largest_shift_;
+  const SpanKernels* kernels_;
 };
 
 // For observers: a link word in half units of its last place, sign * (2 m + 1).

@@ -58,6 +58,9 @@ class Normaliser {
   NormalisedNormal normalise(std::uint32_t word_x, std::uint32_t word_y, std::uint32_t word_z) const;
 
   const std::vector<std::uint16_t>& rom() const { return rom_; }
+  unsigned address_shift() const { return address_shift_; }  // squares to ROM address
+  unsigned product_shift() const { return product_shift_; }
+  std::uint32_t short_limit() const { return short_limit_; }
 
  private:
   bool centred_;

@@ -59,6 +59,7 @@ class Pairs {
   Measured run() {
     imogene::Options options;
     options.frames = kWarmFrames + case_.pairs;
+    options.observe = false;
     platform_ = std::make_unique<imogene::Imogene>(
         machine_, scene_, options,
         [this](const imogene::ShownFrame& shown, const frame::Frame& pixels) { show(shown, pixels); });

@@ -1,0 +1,41 @@
+// What the lines of boards show together, evaluated only where it is seen: depths are compared along spans, and of the
+// nearest alone the normal is computed and normalised. The same words as comparing pixel by pixel (tested).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "modules/object_processor/parameters.h"
+#include "modules/object_processor/prenormaliser.h"
+#include "modules/object_processor/span_kernels.h"
+#include "src/base/vector_variant.h"
+#include "src/frame/covered_line.h"
+#include "src/frame/scan_line.h"
+
+namespace rastertlm::object_processor {
+
+class LineComposer {
+ public:
+  // `observe`: count how many objects cover each pixel; without, the coverage of a line means nothing.
+  LineComposer(const ObjectProcessorParameters& parameters, std::size_t columns, bool observe = true,
+               VectorVariant variant = vector_variant());
+
+  // Boards in the order of processor numbers: strictly smaller depth wins, equal depth keeps the lower number. `out` is
+  // a line of `columns` that is written anew.
+  void compose(std::span<const frame::CoveredLine* const> boards, std::uint32_t line, frame::FragmentLine& out);
+
+ private:
+  void compare(std::span<const frame::CoveredLine* const> boards, std::uint32_t line, frame::FragmentLine& out);
+  static void count_coverage(std::span<const frame::CoveredLine* const> boards, frame::FragmentLine& out);
+
+  std::uint32_t word_mask_;
+  Prenormaliser prenormaliser_;
+  bool observe_;
+  const SpanKernels* kernels_;
+  std::vector<std::uint32_t> winner_;                  // mark of the nearest: 0 nobody, else a span, counted from 1
+  std::vector<const frame::FragmentSource*> sources_;  // by mark
+  std::array<std::vector<std::uint32_t>, 3> normal_;   // words of the winners before normalisation
+};
+
+}  // namespace rastertlm::object_processor

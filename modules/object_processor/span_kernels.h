@@ -1,0 +1,99 @@
+// The inner loops of object boards, compiled for several instruction sets. All give the same words; which one is used is
+// chosen at run time (src/base/vector_variant.h). The sources of the kernels include this header and nothing that other
+// code shares.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "src/base/vector_variant.h"
+#include "src/frame/covered_line.h"
+
+namespace rastertlm::object_processor {
+
+inline constexpr std::uint32_t kBandLines = 8;  // lines whose spans are found together
+
+// The borders of a triangle, linear functions slope * line + offset: pixels are at or right of 0 and 1, and at or left
+// of 2 and 3. Offsets are moved by a quarter of the least distance of a column from an edge, so that rounding in double
+// errs nowhere.
+struct alignas(64) Borders {
+  double slope[4];
+  double offset[4];
+};
+
+// Spans of a processor on the lines of a band; begin = end where it covers nothing.
+struct BandSpans {
+  std::uint16_t begin[kBandLines];
+  std::uint16_t end[kBandLines];
+  std::uint32_t slot;
+  std::uint32_t doubtful;  // bit i: on line i depth may reach the word that says "nothing"
+};
+
+struct BandRequest {
+  std::uint32_t slot = 0;
+  std::int32_t begin = 0;  // lines that the processor can touch
+  std::int32_t end = 0;
+  std::uint32_t first_line = 0;  // of the band
+  std::uint32_t columns = 0;
+  std::uint32_t word_mask = 0;
+};
+
+struct LineRequest {
+  const BandSpans* spans = nullptr;
+  std::size_t count = 0;
+  std::uint32_t line_in_band = 0;
+  const frame::FragmentSource* sources = nullptr;  // by slot
+  frame::CoveredSpan* out = nullptr;               // at least `count`
+  std::uint64_t* seen = nullptr;                   // written
+  std::size_t seen_words = 0;
+};
+struct LineTotals {
+  std::size_t spans = 0;
+  std::uint64_t fragments = 0;    // pixels of the spans
+  std::uint64_t seen_pixels = 0;  // of their union
+};
+
+struct DrawRequest {
+  const frame::CoveredSpan* spans = nullptr;
+  std::size_t count = 0;
+  std::uint32_t line = 0;
+  std::uint32_t word_mask = 0;
+  std::uint32_t first_mark = 0;     // of the first span; each has the next
+  std::uint32_t* depth = nullptr;   // nearest so far, and 16 words to spare
+  std::uint32_t* winner = nullptr;  // mark of the nearest, likewise
+};
+
+struct ResolveRequest {
+  const std::uint32_t* winner = nullptr;
+  std::uint32_t columns = 0;
+  std::uint32_t line = 0;
+  const frame::FragmentSource* const* sources = nullptr;  // by mark; 0 is nobody
+  std::uint32_t* normal[3] = {};  // words before normalisation; 16 words to spare, as for what follows
+  std::uint8_t* material = nullptr;
+  std::uint32_t* object = nullptr;  // 0 where nobody is seen; the other words then mean nothing
+};
+
+struct PrenormaliseRequest {
+  const std::uint32_t* normal[3] = {};  // words of word_bits; 16 to spare, as for link
+  std::uint16_t* link[3] = {};
+  std::size_t count = 0;
+  unsigned word_bits = 24;  // at most 25
+  unsigned normal_bits = 12;
+};
+
+struct SpanKernels {
+  // Spans of a processor whose edges cannot wrap, on the lines of a band.
+  void (*band)(const Borders& borders, const frame::FragmentSource& source, const BandRequest& request, BandSpans& out);
+  // The spans of a line of a band on which no depth is doubtful.
+  LineTotals (*line)(const LineRequest& request);
+  // The depth comparator along spans, in order: strictly nearer wins.
+  void (*draw)(const DrawRequest& request);
+  // Words of the winners, by runs of one winner.
+  void (*resolve)(const ResolveRequest& request);
+  // The pre-normalisation unit.
+  void (*prenormalise)(const PrenormaliseRequest& request);
+};
+
+const SpanKernels& span_kernels(VectorVariant variant);
+
+}  // namespace rastertlm::object_processor

@@ -1,0 +1,355 @@
+// The kernels themselves, compiled once for each instruction set into the table that RASTERTLM_KERNELS names. Where
+// there is no AVX-512 the compiler's own vectors are used. Vectors may run over the end of an array into what it has to
+// spare, and over the end of a run into the next, which is written after it.
+#include "modules/object_processor/span_kernels.h"
+
+#if defined(__AVX512BW__)
+#include <immintrin.h>
+#endif
+
+namespace rastertlm::object_processor {
+namespace {
+
+using frame::CoveredSpan;
+using frame::FragmentSource;
+using frame::WordPlane;
+
+#if defined(__AVX512BW__)
+
+inline __m512i all(std::uint32_t word) { return _mm512_set1_epi32(static_cast<int>(word)); }
+inline __m512i from_0_to_15() { return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
+
+void band(const Borders& borders, const FragmentSource& source, const BandRequest& request, BandSpans& out) {
+  const __m256i numbers = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(request.first_line)),
+                                           _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  const __m512d line = _mm512_cvtepi32_pd(numbers);
+  const auto border = [&](int i) {
+    return _mm512_add_pd(_mm512_mul_pd(_mm512_set1_pd(borders.slope[i]), line), _mm512_set1_pd(borders.offset[i]));
+  };
+  const auto columns = static_cast<double>(request.columns);
+  const __m512d left =
+      _mm512_min_pd(_mm512_max_pd(_mm512_max_pd(border(0), border(1)), _mm512_setzero_pd()), _mm512_set1_pd(columns));
+  const __m512d right = _mm512_max_pd(_mm512_min_pd(_mm512_min_pd(border(2), border(3)), _mm512_set1_pd(columns - 0.5)),
+                                      _mm512_set1_pd(-1.0));
+  const __m256i begin = _mm512_cvt_roundpd_epi32(left, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
+  const __m256i end = _mm256_add_epi32(_mm512_cvt_roundpd_epi32(right, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC),
+                                       _mm256_set1_epi32(1));
+  const __mmask8 covers = _mm256_cmplt_epi32_mask(begin, end) &
+                          _mm256_cmpge_epi32_mask(numbers, _mm256_set1_epi32(request.begin)) &
+                          _mm256_cmplt_epi32_mask(numbers, _mm256_set1_epi32(request.end));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out.begin), _mm256_cvtepi32_epi16(_mm256_maskz_mov_epi32(covers, begin)));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out.end), _mm256_cvtepi32_epi16(_mm256_maskz_mov_epi32(covers, end)));
+  out.slot = request.slot;
+
+  // Depth at both ends, as it runs without a wrap: between 0 and all ones, ends not included, none can be reached.
+  const WordPlane& depth = source.depth;
+  const __m256i mask = _mm256_set1_epi32(static_cast<int>(request.word_mask));
+  const __m256i first = _mm256_and_si256(
+      _mm256_add_epi32(_mm256_add_epi32(_mm256_mullo_epi32(_mm256_set1_epi32(static_cast<int>(depth.a)), begin),
+                                        _mm256_mullo_epi32(_mm256_set1_epi32(static_cast<int>(depth.b)),
+                                                           _mm256_add_epi32(numbers, _mm256_set1_epi32(1)))),
+                       _mm256_set1_epi32(static_cast<int>(depth.c))),
+      mask);
+  const std::uint32_t sign = request.word_mask ^ (request.word_mask >> 1);
+  const double step = static_cast<double>(depth.a & request.word_mask) -
+                      ((depth.a & sign) != 0 ? static_cast<double>(request.word_mask) + 1.0 : 0.0);
+  const __m512d start = _mm512_cvtepu32_pd(first);
+  const __m512d steps = _mm512_cvtepi32_pd(_mm256_sub_epi32(_mm256_sub_epi32(end, begin), _mm256_set1_epi32(1)));
+  const __m512d last = _mm512_add_pd(start, _mm512_mul_pd(_mm512_set1_pd(step), steps));
+  const __m512d nothing = _mm512_set1_pd(static_cast<double>(request.word_mask));
+  const __mmask8 safe = _mm512_cmp_pd_mask(last, _mm512_setzero_pd(), _CMP_GE_OQ) &
+                        _mm512_cmp_pd_mask(last, nothing, _CMP_LT_OQ) & _mm512_cmp_pd_mask(start, nothing, _CMP_LT_OQ);
+  out.doubtful = covers & static_cast<std::uint32_t>(~safe & 0xFFU);
+}
+
+#else
+
+void band(const Borders& borders, const FragmentSource& source, const BandRequest& request, BandSpans& out) {
+  const auto columns = static_cast<double>(request.columns);
+  const std::uint32_t sign = request.word_mask ^ (request.word_mask >> 1);
+  const auto nothing = static_cast<double>(request.word_mask);
+  const WordPlane& depth = source.depth;
+  const double step =
+      static_cast<double>(depth.a & request.word_mask) - ((depth.a & sign) != 0 ? nothing + 1.0 : 0.0);
+  out.slot = request.slot;
+  out.doubtful = 0;
+  for (std::uint32_t i = 0; i < kBandLines; ++i) {
+    const std::uint32_t number = request.first_line + i;
+    const auto line = static_cast<double>(number);
+    const double left0 = borders.slope[0] * line + borders.offset[0];
+    const double left1 = borders.slope[1] * line + borders.offset[1];
+    const double right0 = borders.slope[2] * line + borders.offset[2];
+    const double right1 = borders.slope[3] * line + borders.offset[3];
+    double left = left0 > left1 ? left0 : left1;
+    double right = right0 < right1 ? right0 : right1;
+    left = left > 0.0 ? (left < columns ? left : columns) : 0.0;
+    right = right < columns - 0.5 ? (right > -1.0 ? right : -1.0) : columns - 0.5;
+    // Neither is negative once moved: truncation rounds down.
+    auto begin = static_cast<std::uint32_t>(left);
+    begin += static_cast<double>(begin) < left ? 1 : 0;
+    const auto end = static_cast<std::uint32_t>(right + 1.0);
+    const bool covers = begin < end && static_cast<std::int32_t>(number) >= request.begin &&
+                        static_cast<std::int32_t>(number) < request.end;
+    out.begin[i] = static_cast<std::uint16_t>(covers ? begin : 0);
+    out.end[i] = static_cast<std::uint16_t>(covers ? end : 0);
+    if (!covers) continue;
+    const auto start = static_cast<double>((depth.a * begin + depth.b * (number + 1) + depth.c) & request.word_mask);
+    const double last = start + step * static_cast<double>(end - begin - 1);
+    if (!(last >= 0.0 && last < nothing && start < nothing)) out.doubtful |= 1U << i;
+  }
+}
+
+#endif
+
+// Bits `begin` to 63 of a word of bits that starts at column `first`.
+inline std::uint64_t bits_from(std::uint32_t column, std::uint32_t first) {
+  if (column <= first) return ~std::uint64_t{0};
+  return column - first >= 64 ? 0 : ~std::uint64_t{0} << (column - first);
+}
+
+LineTotals line(const LineRequest& request) {
+  LineTotals totals;
+  const std::uint32_t k = request.line_in_band;
+#if defined(__AVX512BW__)
+  constexpr std::size_t kWordsInRegister = 8;
+  if (request.seen_words <= kWordsInRegister) {
+    const __m512i firsts = _mm512_setr_epi64(0, 64, 128, 192, 256, 320, 384, 448);
+    const __m512i ones = _mm512_set1_epi64(-1);
+    const auto from = [&](std::uint32_t column) {
+      const __m512i distance = _mm512_max_epi64(
+          _mm512_sub_epi64(_mm512_set1_epi64(static_cast<long long>(column)), firsts), _mm512_setzero_si512());
+      return _mm512_sllv_epi64(ones, distance);
+    };
+    __m512i seen = _mm512_setzero_si512();
+    for (std::size_t i = 0; i < request.count; ++i) {
+      const BandSpans& spans = request.spans[i];
+      const std::uint32_t begin = spans.begin[k];
+      const std::uint32_t end = spans.end[k];
+      request.out[totals.spans] = {begin, end, request.sources + spans.slot};
+      totals.spans += begin < end ? 1 : 0;
+      totals.fragments += end - begin;
+      seen = _mm512_or_si512(seen, _mm512_andnot_si512(from(end), from(begin)));
+    }
+    const auto present = static_cast<__mmask8>((1U << request.seen_words) - 1);
+    _mm512_mask_storeu_epi64(request.seen, present, seen);
+    for (std::size_t w = 0; w < request.seen_words; ++w)
+      totals.seen_pixels += static_cast<std::uint64_t>(__builtin_popcountll(request.seen[w]));
+    return totals;
+  }
+#endif
+  for (std::size_t w = 0; w < request.seen_words; ++w) request.seen[w] = 0;
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const BandSpans& spans = request.spans[i];
+    const std::uint32_t begin = spans.begin[k];
+    const std::uint32_t end = spans.end[k];
+    if (begin >= end) continue;
+    request.out[totals.spans++] = {begin, end, request.sources + spans.slot};
+    totals.fragments += end - begin;
+    for (std::uint32_t w = begin / 64; w <= (end - 1) / 64; ++w)
+      request.seen[w] |= bits_from(begin, 64 * w) & ~bits_from(end, 64 * w);
+  }
+  for (std::size_t w = 0; w < request.seen_words; ++w)
+    totals.seen_pixels += static_cast<std::uint64_t>(__builtin_popcountll(request.seen[w]));
+  return totals;
+}
+
+#if defined(__AVX512BW__)
+
+void draw(const DrawRequest& request) {
+  const __m512i ramp = from_0_to_15();
+  const __m512i word_mask = all(request.word_mask);
+  std::uint32_t mark = request.first_mark;
+  for (std::size_t i = 0; i < request.count; ++i, ++mark) {
+    const CoveredSpan& span = request.spans[i];
+    const WordPlane& depth = span.source->depth;
+    std::uint32_t word = depth.a * span.begin + depth.b * (request.line + 1) + depth.c;
+    const __m512i steps = _mm512_mullo_epi32(all(depth.a), ramp);
+    const __m512i marks = all(mark);
+    for (std::uint32_t x = span.begin; x < span.end; x += 16) {
+      const std::uint32_t left = span.end - x;
+      const auto covered = static_cast<__mmask16>(left >= 16 ? 0xFFFFU : (1U << left) - 1);
+      const __m512i words = _mm512_and_si512(_mm512_add_epi32(all(word), steps), word_mask);
+      const __m512i old = _mm512_loadu_si512(request.depth + x);
+      const __mmask16 nearer = _mm512_mask_cmplt_epu32_mask(covered, words, old);
+      _mm512_mask_storeu_epi32(request.depth + x, nearer, words);
+      _mm512_mask_storeu_epi32(request.winner + x, nearer, marks);
+      word += 16 * depth.a;
+    }
+  }
+}
+
+#else
+
+// Word: as what depths are compared. Narrower ones than 32 bits are not negative, and vectors without unsigned
+// comparisons do those faster as signed.
+template <class Word>
+void draw_as(const DrawRequest& request) {
+  std::uint32_t mark = request.first_mark;
+  for (std::size_t i = 0; i < request.count; ++i, ++mark) {
+    const CoveredSpan& span = request.spans[i];
+    const WordPlane& depth = span.source->depth;
+    const std::uint32_t step = depth.a;
+    const std::uint32_t mask = request.word_mask;
+    std::uint32_t word = depth.a * span.begin + depth.b * (request.line + 1) + depth.c;
+    std::uint32_t* __restrict nearest = request.depth + span.begin;
+    std::uint32_t* __restrict winner = request.winner + span.begin;
+    const std::size_t count = span.end - span.begin;
+    for (std::size_t x = 0; x < count; ++x) {
+      const std::uint32_t here = word & mask;
+      const bool wins = static_cast<Word>(here) < static_cast<Word>(nearest[x]);
+      nearest[x] = wins ? here : nearest[x];
+      winner[x] = wins ? mark : winner[x];
+      word += step;
+    }
+  }
+}
+
+void draw(const DrawRequest& request) {
+  if (request.word_mask >> 31 == 0)
+    draw_as<std::int32_t>(request);
+  else
+    draw_as<std::uint32_t>(request);
+}
+
+#endif
+
+void fill(const ResolveRequest& request, const FragmentSource* source, std::uint32_t begin, std::uint32_t end) {
+#if defined(__AVX512BW__)
+  const __m512i object = all(source != nullptr ? source->object : 0);
+  for (std::uint32_t x = begin; x < end; x += 16) _mm512_storeu_si512(request.object + x, object);
+  if (source == nullptr) return;
+  const __m128i material = _mm_set1_epi8(static_cast<char>(source->material));
+  for (std::uint32_t x = begin; x < end; x += 16)
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(request.material + x), material);
+  const __m512i ramp = from_0_to_15();
+  for (int i = 0; i < 3; ++i) {
+    const WordPlane& plane = source->normal[i];
+    const std::uint32_t word = plane.a * begin + plane.b * (request.line + 1) + plane.c;
+    __m512i words = _mm512_add_epi32(all(word), _mm512_mullo_epi32(all(plane.a), ramp));
+    const __m512i step = all(16 * plane.a);
+    for (std::uint32_t x = begin; x < end; x += 16, words = _mm512_add_epi32(words, step))
+      _mm512_storeu_si512(request.normal[i] + x, words);
+  }
+#else
+  const std::uint32_t object = source != nullptr ? source->object : 0;
+  std::uint32_t* __restrict objects = request.object;
+  for (std::uint32_t x = begin; x < end; ++x) objects[x] = object;
+  if (source == nullptr) return;
+  const auto material = static_cast<std::uint8_t>(source->material);
+  std::uint8_t* __restrict materials = request.material;
+  for (std::uint32_t x = begin; x < end; ++x) materials[x] = material;
+  for (int i = 0; i < 3; ++i) {
+    const WordPlane& plane = source->normal[i];
+    const std::uint32_t step = plane.a;
+    std::uint32_t word = plane.a * begin + plane.b * (request.line + 1) + plane.c;
+    std::uint32_t* __restrict words = request.normal[i];
+    for (std::uint32_t x = begin; x < end; ++x) {
+      words[x] = word;
+      word += step;
+    }
+  }
+#endif
+}
+
+void resolve(const ResolveRequest& request) {
+  const std::uint32_t* winner = request.winner;
+  std::uint32_t begin = 0;
+#if defined(__AVX512BW__)
+  for (std::uint32_t x = 0; x < request.columns; x += 16) {
+    std::uint32_t changes =
+        _mm512_cmpneq_epu32_mask(_mm512_loadu_si512(winner + x), _mm512_loadu_si512(winner + x + 1));
+    const std::uint32_t left = request.columns - x;
+    if (left <= 16) changes = (changes & ((1U << left) - 1)) | 1U << (left - 1);
+    for (; changes != 0; changes &= changes - 1) {
+      const std::uint32_t end = x + static_cast<std::uint32_t>(__builtin_ctz(changes)) + 1;
+      fill(request, request.sources[winner[begin]], begin, end);
+      begin = end;
+    }
+  }
+#else
+  for (std::uint32_t x = 1; x <= request.columns; ++x) {
+    if (x < request.columns && winner[x] == winner[begin]) continue;
+    fill(request, request.sources[winner[begin]], begin, x);
+    begin = x;
+  }
+#endif
+}
+
+#if defined(__AVX512BW__)
+
+void prenormalise(const PrenormaliseRequest& request) {
+  const __m128i up = _mm_cvtsi32_si128(static_cast<int>(32 - request.word_bits));
+  const unsigned magnitude_bits = request.normal_bits - 1;
+  const __m512i at_least = all((1U << magnitude_bits) - 1);
+  const __m512i zeros = all(32 - magnitude_bits);
+  const __m512i sign_bit = all(1U << magnitude_bits);
+  for (std::size_t x = 0; x < request.count; x += 16) {
+    __m512i magnitude[3], sign[3];
+    __m512i together = at_least;
+    for (int i = 0; i < 3; ++i) {
+      const __m512i word = _mm512_sll_epi32(_mm512_loadu_si512(request.normal[i] + x), up);
+      sign[i] = _mm512_srai_epi32(word, 31);
+      magnitude[i] = _mm512_xor_si512(_mm512_sra_epi32(word, up), sign[i]);
+      together = _mm512_or_si512(together, magnitude[i]);
+    }
+    const __m512i shift = _mm512_sub_epi32(zeros, _mm512_lzcnt_epi32(together));
+    for (int i = 0; i < 3; ++i) {
+      const __m512i link =
+          _mm512_or_si512(_mm512_srlv_epi32(magnitude[i], shift), _mm512_and_si512(sign[i], sign_bit));
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(request.link[i] + x), _mm512_cvtepi32_epi16(link));
+    }
+  }
+}
+
+#else
+
+constexpr unsigned kFloatFraction = 23;
+constexpr std::int32_t kFloatBias = 127;
+
+inline std::int32_t as_bits(float value) { return __builtin_bit_cast(std::int32_t, value); }
+inline float as_float(std::int32_t bits) { return __builtin_bit_cast(float, bits); }
+
+// The float's exponent is the bit length and its product the shift, so that lanes of a vector need neither a count of
+// leading zeros nor a shift of their own: a magnitude of up to 24 bits is exact in a float, and so is its product with a
+// power of two.
+void prenormalise(const PrenormaliseRequest& request) {
+  const std::uint32_t* __restrict x = request.normal[0];
+  const std::uint32_t* __restrict y = request.normal[1];
+  const std::uint32_t* __restrict z = request.normal[2];
+  std::uint16_t* __restrict link_x = request.link[0];
+  std::uint16_t* __restrict link_y = request.link[1];
+  std::uint16_t* __restrict link_z = request.link[2];
+  const std::size_t count = request.count;
+  const int up = static_cast<int>(32 - request.word_bits);
+  const auto magnitude_bits = static_cast<std::int32_t>(request.normal_bits - 1);
+  // So that the bit length is never below magnitude_bits, and the shift not below 0.
+  const std::int32_t at_least = (1 << magnitude_bits) - 1;
+  const auto sign_bit = std::int32_t{1} << magnitude_bits;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t nx = static_cast<std::int32_t>(x[i] << up) >> up;
+    const std::int32_t ny = static_cast<std::int32_t>(y[i] << up) >> up;
+    const std::int32_t nz = static_cast<std::int32_t>(z[i] << up) >> up;
+    const std::int32_t mx = nx ^ (nx >> 31);
+    const std::int32_t my = ny ^ (ny >> 31);
+    const std::int32_t mz = nz ^ (nz >> 31);
+    const std::int32_t exponent =
+        as_bits(static_cast<float>(mx | my | mz | at_least)) >> kFloatFraction;  // bit length + 126
+    const std::int32_t shift = exponent - (kFloatBias - 1) - magnitude_bits;
+    const float scale = as_float((kFloatBias - shift) << kFloatFraction);  // 2^-shift
+    const auto kx = static_cast<std::int32_t>(static_cast<float>(mx) * scale);
+    const auto ky = static_cast<std::int32_t>(static_cast<float>(my) * scale);
+    const auto kz = static_cast<std::int32_t>(static_cast<float>(mz) * scale);
+    link_x[i] = static_cast<std::uint16_t>(kx | ((nx >> 31) & sign_bit));
+    link_y[i] = static_cast<std::uint16_t>(ky | ((ny >> 31) & sign_bit));
+    link_z[i] = static_cast<std::uint16_t>(kz | ((nz >> 31) & sign_bit));
+  }
+}
+
+#endif
+
+}  // namespace
+
+extern const SpanKernels RASTERTLM_KERNELS;
+const SpanKernels RASTERTLM_KERNELS{band, line, draw, resolve, prenormalise};
+
+}  // namespace rastertlm::object_processor

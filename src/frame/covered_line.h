@@ -1,0 +1,47 @@
+// A scan line as the spans that objects cover, before anybody looks at a pixel of it: what a board's line holds, for as
+// long as its pixels are of no interest to anybody.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rastertlm::frame {
+
+// A word along a line: a x + b (line + 1) + c, modulo 2^word_bits.
+struct WordPlane {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  std::uint32_t c = 0;
+};
+
+// What an object processor shows wherever it covers a pixel.
+struct alignas(64) FragmentSource {
+  WordPlane depth;
+  WordPlane normal[3];
+  std::uint32_t material = 0;
+  std::uint32_t object = 0;  // observer: from 1
+};
+
+// Columns [begin, end), not empty, that an object covers.
+struct CoveredSpan {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  const FragmentSource* source = nullptr;
+};
+
+// Spans in the order of processor numbers. Valid until the board's words change.
+struct CoveredLine {
+  std::vector<CoveredSpan> spans;  // the first `count` of them
+  std::size_t count = 0;
+  std::vector<std::uint64_t> seen;  // a bit a column, lowest first: an object is seen there
+  std::uint64_t seen_pixels = 0;    // the bits that are set
+
+  void resize(std::size_t columns) {
+    seen.assign((columns + 63) / 64, 0);
+    count = 0;
+    seen_pixels = 0;
+  }
+};
+
+}  // namespace rastertlm::frame
