@@ -23,7 +23,9 @@ template <class T>
 WideInteger to_wide_integer(T value) {
   if constexpr (!std::is_arithmetic_v<T>) ++geometry::operation_counts.convert;
   constexpr double kLimit = 0x1p90;
+  constexpr double kNarrow = 0x1p62;
   const double rounded = std::floor(geometry::plain(value) + 0.5);
+  if (rounded > -kNarrow && rounded < kNarrow) return static_cast<std::int64_t>(rounded);
   return rounded > -kLimit && rounded < kLimit ? static_cast<WideInteger>(rounded) : WideInteger{0};
 }
 
@@ -47,6 +49,7 @@ class PlaneFit {
 
   int word_bits_;
   int anchor_bits_;  // the anchor is in units of 2^-anchor_bits pixel
+  double fraction_unit_;
   std::int64_t anchor_x_;
   std::int64_t anchor_y_;
   T edge1_x_, edge1_y_;  // from corner 0, over the doubled area and in pixels: slopes are sums of products with them
@@ -57,7 +60,7 @@ class PlaneFit {
 template <class T>
 PlaneFit<T>::PlaneFit(const std::array<geometry::SnappedPoint, 3>& corners, std::int64_t area, int fraction_bits,
                       const WordFormat& format)
-    : word_bits_(format.word_bits), anchor_bits_(fraction_bits + 1) {
+    : word_bits_(format.word_bits), anchor_bits_(fraction_bits + 1), fraction_unit_(std::ldexp(1.0, -anchor_bits_)) {
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
   anchor_x_ = doubled_middle(left, right, (static_cast<std::int64_t>(format.columns) - 1) << fraction_bits);
@@ -92,7 +95,8 @@ LinearWords PlaneFit<T>::fit(const std::array<T, 3>& values) const {
   // lost where slopes are steep.
   const WideInteger sum = a * anchor_x_ + b * anchor_y_;
   const WideInteger whole = sum >> anchor_bits_;
-  const auto fraction = static_cast<double>(sum - (whole << anchor_bits_)) / std::ldexp(1.0, anchor_bits_);
+  const auto below = static_cast<std::int64_t>(sum - (whole << anchor_bits_));  // 0 .. 2^anchor_bits - 1
+  const double fraction = static_cast<double>(below) * fraction_unit_;
   const WideInteger c = to_wide_integer<T>(at_anchor - T(fraction)) - whole;
   geometry::charge_integer<T>(6, 2);
   // Slopes may be wider than 64 bits on the finest grids; the word is their lowest bits.
