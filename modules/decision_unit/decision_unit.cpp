@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <utility>
 
 #include "src/base/fixed_point.h"
@@ -87,16 +86,9 @@ void DecisionUnit::merge(std::span<frame::FragmentLine* const> lines) {
 
 void DecisionUnit::merge(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
                          object_processor::LineComposer& composer, frame::FragmentLine& out) {
-  if (boards.empty()) return;
-  composer.compose(boards, line, out);
   std::uint64_t in = 0;
-  seen_.assign(boards[0]->seen.begin(), boards[0]->seen.end());
-  for (const frame::CoveredLine* board : boards) {
-    in += board->seen_pixels;
-    for (std::size_t word = 0; word < seen_.size(); ++word) seen_[word] |= board->seen[word];
-  }
-  std::uint64_t kept = 0;
-  for (const std::uint64_t word : seen_) kept += static_cast<std::uint64_t>(std::popcount(word));
+  for (const frame::CoveredLine* board : boards) in += board->seen_pixels;
+  const std::uint64_t kept = composer.compose(boards, line, out);
   counters_.fragments_in += in;
   counters_.fragments_kept += kept;
   counters_.fragments_hidden += in - kept;

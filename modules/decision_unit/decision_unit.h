@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "modules/decision_unit/parameters.h"
 #include "modules/object_processor/line_composer.h"
@@ -43,7 +42,6 @@ class DecisionUnit {
   DecisionUnitParameters parameters_;
   std::uint32_t background_depth_;
   DecisionCounters counters_;
-  std::vector<std::uint64_t> seen_;  // of a line, by all boards
 };
 
 // One comparator on a whole line: `into` becomes the nearer of both at every pixel, its own where depths are equal;

@@ -16,17 +16,19 @@ LineComposer::LineComposer(const ObjectProcessorParameters& parameters, std::siz
   for (auto& component : normal_) component.resize(columns + frame::FragmentLine::kSpare);
 }
 
-void LineComposer::compose(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
-                           frame::FragmentLine& out) {
+std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
+                                    frame::FragmentLine& out) {
   out.clear();
-  const bool covered = std::any_of(boards.begin(), boards.end(), [](const auto* board) { return board->count > 0; });
-  if (!covered) return;
+  std::size_t spans = 0;
+  for (const frame::CoveredLine* board : boards) spans += board->count;
+  if (spans == 0) return 0;
+  if (sources_.size() <= spans) sources_.resize(spans + 1);
   const std::size_t columns = out.columns();
   out.begin = 0;
   out.end = columns;
   compare(boards, line, out);
   if (observe_) count_coverage(boards, out);
-  kernels_->resolve({winner_.data(),
+  const std::uint64_t seen = kernels_->resolve({winner_.data(),
                      static_cast<std::uint32_t>(columns),
                      line,
                      sources_.data(),
@@ -35,20 +37,18 @@ void LineComposer::compose(std::span<const frame::CoveredLine* const> boards, st
                      out.object.data()});
   prenormaliser_.line({normal_[0].data(), normal_[1].data(), normal_[2].data()},
                       {out.normal_x.data(), out.normal_y.data(), out.normal_z.data()}, columns);
+  return seen;
 }
 
 void LineComposer::compare(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
                            frame::FragmentLine& out) {
   std::fill(out.depth.begin(), out.depth.end(), word_mask_);
   std::fill(winner_.begin(), winner_.end(), 0U);
-  std::size_t spans = 1;
-  for (const frame::CoveredLine* board : boards) spans += board->count;
-  if (sources_.size() < spans) sources_.resize(spans);
   std::uint32_t mark = 1;
   for (const frame::CoveredLine* board : boards) {
-    kernels_->draw(
-        {board->spans.data(), board->count, line, word_mask_, mark, out.depth.data(), winner_.data()});
-    for (std::size_t i = 0; i < board->count; ++i) sources_[mark++] = board->spans[i].source;
+    kernels_->draw({board->spans.data(), board->count, line, word_mask_, mark, sources_.data(), out.depth.data(),
+                    winner_.data()});
+    mark += static_cast<std::uint32_t>(board->count);
   }
 }
 

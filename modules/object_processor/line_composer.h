@@ -23,7 +23,9 @@ class LineComposer {
 
   // Boards in the order of processor numbers: strictly smaller depth wins, equal depth keeps the lower number. `out` is
   // a line of `columns` that is written anew.
-  void compose(std::span<const frame::CoveredLine* const> boards, std::uint32_t line, frame::FragmentLine& out);
+  // Returns the number of pixels in which an object is seen.
+  std::uint64_t compose(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
+                        frame::FragmentLine& out);
 
  private:
   void compare(std::span<const frame::CoveredLine* const> boards, std::uint32_t line, frame::FragmentLine& out);

@@ -70,7 +70,8 @@ ObjectBoard::ObjectBoard(const ObjectProcessorParameters& parameters, std::uint3
       kernels_(span_kernels(variant)),
       bucket_begin_(std::size_t{(lines + kBandLines - 1) / kBandLines} + 1, 0),
       touched_by_(std::size_t{lines} + 1, 0),
-      winner_(std::size_t{columns} + 1, 0) {
+      winner_(std::size_t{columns} + 1, 0),
+      seen_((columns + 63) / 64, 0) {
   for (auto& component : normal_) component.resize(columns + frame::FragmentLine::kSpare);
   if (everything_ && processors_ > 0) {
     writable(processors_ - 1, 0);
@@ -362,10 +363,7 @@ void ObjectBoard::cover_line(std::uint32_t line, frame::CoveredLine& out) {
   select_band(line);
   out.count = 0;
   out.seen_pixels = 0;
-  if (touched_by_[line] == 0) {
-    std::fill(out.seen.begin(), out.seen.end(), 0U);
-    return;
-  }
+  if (touched_by_[line] == 0) return;
   ++counters_.lines_evaluated;
   counters_.processors_visited += touched_by_[line];
   find_spans();
@@ -376,7 +374,7 @@ void ObjectBoard::cover_line(std::uint32_t line, frame::CoveredLine& out) {
   } else {
     if (out.spans.size() < active_.size()) out.spans.resize(active_.size());
     const LineTotals totals = kernels_.line({spans_.data(), spans_.size(), line_in_band, sources_.data(),
-                                             out.spans.data(), out.seen.data(), out.seen.size()});
+                                             out.spans.data(), seen_.data(), seen_.size()});
     out.count = totals.spans;
     out.seen_pixels = totals.seen_pixels;
     counters_.fragments_in += totals.fragments;
@@ -387,7 +385,7 @@ void ObjectBoard::cover_line(std::uint32_t line, frame::CoveredLine& out) {
 
 // A line on which an edge could wrap, or a depth reach the word of nothing: span by span, as evaluate_line draws it.
 void ObjectBoard::cover_carefully(std::uint32_t line, frame::CoveredLine& out) {
-  std::fill(out.seen.begin(), out.seen.end(), 0U);
+  std::fill(seen_.begin(), seen_.end(), 0U);
   for (const std::uint32_t slot : active_) {
     if (!intervals_[slot].holds(static_cast<std::int32_t>(line))) continue;
     const LineEdges at = line_edges(slot, line);
@@ -396,17 +394,17 @@ void ObjectBoard::cover_carefully(std::uint32_t line, frame::CoveredLine& out) {
       cover_span(slot, at, span, out);
     });
   }
-  for (const std::uint64_t word : out.seen) out.seen_pixels += static_cast<std::uint64_t>(std::popcount(word));
+  for (const std::uint64_t word : seen_) out.seen_pixels += static_cast<std::uint64_t>(std::popcount(word));
 }
 
-void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::CoveredLine& out) const {
+void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::CoveredLine& out) {
   const auto begin = static_cast<std::uint32_t>(span.begin);
   const auto end = static_cast<std::uint32_t>(span.end);
   if (out.spans.size() <= out.count) out.spans.resize(2 * out.count + 16);
   out.spans[out.count++] = {begin, end, &sources_[slot]};
   for (std::uint32_t column = begin; column < end; ++column)
     if (((at.depth + at.depth_step * column) & format_.mask()) != format_.mask())
-      out.seen[column / 64] |= std::uint64_t{1} << (column % 64);
+      seen_[column / 64] |= std::uint64_t{1} << (column % 64);
 }
 
 void ObjectBoard::draw_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out) {

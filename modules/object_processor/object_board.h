@@ -110,7 +110,7 @@ class ObjectBoard {
   template <class Draw>
   void visit_stepped(const LineEdges& at, std::uint32_t wrapping, Interval span, const Draw& draw);
   void cover_carefully(std::uint32_t line, frame::CoveredLine& out);
-  void cover_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::CoveredLine& out) const;
+  void cover_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::CoveredLine& out);
   void draw_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out);
   void resolve_winners(std::uint32_t line, frame::FragmentLine& out);
   void fill_run(std::uint32_t slot, std::uint32_t line, std::size_t begin, std::size_t end, frame::FragmentLine& out);
@@ -155,6 +155,7 @@ class ObjectBoard {
   Interval touched_;
   std::vector<std::uint32_t> winner_;  // slot + 1 of this board's nearest so far, or 0; one column more than the screen
   std::array<std::vector<std::uint32_t>, 3> normal_;  // words of the winners before normalisation
+  std::vector<std::uint64_t> seen_;                   // a bit a column
   BoardCounters counters_;
 };
 

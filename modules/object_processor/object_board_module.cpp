@@ -20,7 +20,6 @@ ObjectBoardModule::ObjectBoardModule(const sc_core::sc_module_name& name, std::u
       first_pixel_(stream::to_time(timing.clock, timing.first_pixel)),
       link_(link),
       pool_(columns) {
-  covered_.resize(columns);
   bus.register_b_transport(this, &ObjectBoardModule::write);
   sync.register_b_transport(this, &ObjectBoardModule::synchronise);
 }

@@ -44,7 +44,7 @@ struct LineRequest {
   std::uint32_t line_in_band = 0;
   const frame::FragmentSource* sources = nullptr;  // by slot
   frame::CoveredSpan* out = nullptr;               // at least `count`
-  std::uint64_t* seen = nullptr;                   // written
+  std::uint64_t* seen = nullptr;                   // room for a bit a column
   std::size_t seen_words = 0;
 };
 struct LineTotals {
@@ -59,6 +59,7 @@ struct DrawRequest {
   std::uint32_t line = 0;
   std::uint32_t word_mask = 0;
   std::uint32_t first_mark = 0;     // of the first span; each has the next
+  const frame::FragmentSource** sources = nullptr;  // written, by mark
   std::uint32_t* depth = nullptr;   // nearest so far, and 16 words to spare
   std::uint32_t* winner = nullptr;  // mark of the nearest, likewise
 };
@@ -88,8 +89,8 @@ struct SpanKernels {
   LineTotals (*line)(const LineRequest& request);
   // The depth comparator along spans, in order: strictly nearer wins.
   void (*draw)(const DrawRequest& request);
-  // Words of the winners, by runs of one winner.
-  void (*resolve)(const ResolveRequest& request);
+  // Words of the winners, by runs of one winner. Returns how many pixels have one.
+  std::uint64_t (*resolve)(const ResolveRequest& request);
   // The pre-normalisation unit.
   void (*prenormalise)(const PrenormaliseRequest& request);
 };

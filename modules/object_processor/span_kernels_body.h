@@ -130,10 +130,7 @@ LineTotals line(const LineRequest& request) {
       totals.fragments += end - begin;
       seen = _mm512_or_si512(seen, _mm512_andnot_si512(from(end), from(begin)));
     }
-    const auto present = static_cast<__mmask8>((1U << request.seen_words) - 1);
-    _mm512_mask_storeu_epi64(request.seen, present, seen);
-    for (std::size_t w = 0; w < request.seen_words; ++w)
-      totals.seen_pixels += static_cast<std::uint64_t>(__builtin_popcountll(request.seen[w]));
+    totals.seen_pixels = static_cast<std::uint64_t>(_mm512_reduce_add_epi64(_mm512_popcnt_epi64(seen)));
     return totals;
   }
 #endif
@@ -162,6 +159,7 @@ void draw(const DrawRequest& request) {
   for (std::size_t i = 0; i < request.count; ++i, ++mark) {
     const CoveredSpan& span = request.spans[i];
     const WordPlane& depth = span.source->depth;
+    request.sources[mark] = span.source;
     std::uint32_t word = depth.a * span.begin + depth.b * (request.line + 1) + depth.c;
     const __m512i steps = _mm512_mullo_epi32(all(depth.a), ramp);
     const __m512i marks = all(mark);
@@ -188,6 +186,7 @@ void draw_as(const DrawRequest& request) {
   for (std::size_t i = 0; i < request.count; ++i, ++mark) {
     const CoveredSpan& span = request.spans[i];
     const WordPlane& depth = span.source->depth;
+    request.sources[mark] = span.source;
     const std::uint32_t step = depth.a;
     const std::uint32_t mask = request.word_mask;
     std::uint32_t word = depth.a * span.begin + depth.b * (request.line + 1) + depth.c;
@@ -215,20 +214,27 @@ void draw(const DrawRequest& request) {
 
 void fill(const ResolveRequest& request, const FragmentSource* source, std::uint32_t begin, std::uint32_t end) {
 #if defined(__AVX512BW__)
-  const __m512i object = all(source != nullptr ? source->object : 0);
-  for (std::uint32_t x = begin; x < end; x += 16) _mm512_storeu_si512(request.object + x, object);
-  if (source == nullptr) return;
+  if (source == nullptr) {
+    for (std::uint32_t x = begin; x < end; x += 16) _mm512_storeu_si512(request.object + x, _mm512_setzero_si512());
+    return;
+  }
+  const __m512i object = all(source->object);
   const __m128i material = _mm_set1_epi8(static_cast<char>(source->material));
-  for (std::uint32_t x = begin; x < end; x += 16)
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(request.material + x), material);
   const __m512i ramp = from_0_to_15();
+  __m512i words[3], step[3];
   for (int i = 0; i < 3; ++i) {
     const WordPlane& plane = source->normal[i];
     const std::uint32_t word = plane.a * begin + plane.b * (request.line + 1) + plane.c;
-    __m512i words = _mm512_add_epi32(all(word), _mm512_mullo_epi32(all(plane.a), ramp));
-    const __m512i step = all(16 * plane.a);
-    for (std::uint32_t x = begin; x < end; x += 16, words = _mm512_add_epi32(words, step))
-      _mm512_storeu_si512(request.normal[i] + x, words);
+    words[i] = _mm512_add_epi32(all(word), _mm512_mullo_epi32(all(plane.a), ramp));
+    step[i] = all(16 * plane.a);
+  }
+  for (std::uint32_t x = begin; x < end; x += 16) {
+    _mm512_storeu_si512(request.object + x, object);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(request.material + x), material);
+    for (int i = 0; i < 3; ++i) {
+      _mm512_storeu_si512(request.normal[i] + x, words[i]);
+      words[i] = _mm512_add_epi32(words[i], step[i]);
+    }
   }
 #else
   const std::uint32_t object = source != nullptr ? source->object : 0;
@@ -251,8 +257,14 @@ void fill(const ResolveRequest& request, const FragmentSource* source, std::uint
 #endif
 }
 
-void resolve(const ResolveRequest& request) {
+std::uint64_t resolve(const ResolveRequest& request) {
   const std::uint32_t* winner = request.winner;
+  std::uint64_t seen = 0;
+  const auto run = [&](std::uint32_t from, std::uint32_t to) {
+    const FragmentSource* source = request.sources[winner[from]];
+    seen += source != nullptr ? to - from : 0;
+    fill(request, source, from, to);
+  };
   std::uint32_t begin = 0;
 #if defined(__AVX512BW__)
   for (std::uint32_t x = 0; x < request.columns; x += 16) {
@@ -262,17 +274,18 @@ void resolve(const ResolveRequest& request) {
     if (left <= 16) changes = (changes & ((1U << left) - 1)) | 1U << (left - 1);
     for (; changes != 0; changes &= changes - 1) {
       const std::uint32_t end = x + static_cast<std::uint32_t>(__builtin_ctz(changes)) + 1;
-      fill(request, request.sources[winner[begin]], begin, end);
+      run(begin, end);
       begin = end;
     }
   }
 #else
   for (std::uint32_t x = 1; x <= request.columns; ++x) {
     if (x < request.columns && winner[x] == winner[begin]) continue;
-    fill(request, request.sources[winner[begin]], begin, x);
+    run(begin, x);
     begin = x;
   }
 #endif
+  return seen;
 }
 
 #if defined(__AVX512BW__)

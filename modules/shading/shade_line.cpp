@@ -24,8 +24,13 @@ void DeferredShader::Scratch::resize(std::size_t columns) {
 }
 
 void DeferredShader::paint(std::size_t first, std::size_t last, frame::RgbLine& out) const {
+  if (first >= last) return;
   const Levels background = front().background;
-  for (std::size_t c = first; c < last; ++c) std::copy(background.begin(), background.end(), &out.levels[3 * c]);
+  std::uint8_t* levels = &out.levels[3 * first];
+  const std::size_t size = 3 * (last - first);
+  std::copy(background.begin(), background.end(), levels);
+  // What is painted is the pattern of what comes next.
+  for (std::size_t done = 3; done < size; done *= 2) std::copy_n(levels, std::min(done, size - done), levels + done);
 }
 
 void DeferredShader::check_material(std::uint32_t largest, std::size_t pixels) const {

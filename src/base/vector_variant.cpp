@@ -25,7 +25,8 @@ std::vector<VectorVariant> available_vector_variants() {
   available.push_back(VectorVariant::avx2);
   const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-                      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512vbmi");
+                      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512vbmi") &&
+                      __builtin_cpu_supports("avx512vpopcntdq");
   if (avx512) available.push_back(VectorVariant::avx512);
   return available;
 }

@@ -6,7 +6,7 @@
 
 namespace rastertlm {
 
-// baseline: any x86-64. avx512: F, BW, VL, DQ, CD and VBMI.
+// baseline: any x86-64. avx512: F, BW, VL, DQ, CD, VBMI and VPOPCNTDQ.
 enum class VectorVariant { baseline, avx2, avx512 };
 
 const char* name_of(VectorVariant variant);

@@ -34,14 +34,7 @@ struct CoveredSpan {
 struct CoveredLine {
   std::vector<CoveredSpan> spans;  // the first `count` of them
   std::size_t count = 0;
-  std::vector<std::uint64_t> seen;  // a bit a column, lowest first: an object is seen there
-  std::uint64_t seen_pixels = 0;    // the bits that are set
-
-  void resize(std::size_t columns) {
-    seen.assign((columns + 63) / 64, 0);
-    count = 0;
-    seen_pixels = 0;
-  }
+  std::uint64_t seen_pixels = 0;  // columns where an object is seen
 };
 
 }  // namespace rastertlm::frame

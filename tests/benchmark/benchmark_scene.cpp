@@ -8,6 +8,7 @@ namespace rastertlm::benchmark {
 namespace {
 
 constexpr std::size_t kObjects = 8;
+constexpr std::size_t kBoards = 8;
 constexpr double kDistance = 1000.0;  // of the camera: there a world unit is a pixel
 constexpr double kDepth = 50.0;       // of the scene, before and behind that
 constexpr double kHalfSide = 225.0;   // of the square that it fills: with its movement just within the screen
@@ -28,7 +29,7 @@ class Random {
 scene::AnimationDescription jitter(Random& random) {
   scene::AnimationDescription animation;
   animation.kind = scene::AnimationKind::keys;
-  for (int frame = 0; frame <= 1000; ++frame) {
+  for (int frame = 0; frame <= 100; ++frame) {
     scene::KeyDescription key;
     key.frame = frame;
     key.translate = {random.between(-4.0, 4.0), random.between(-4.0, 4.0), random.between(-4.0, 4.0)};
@@ -85,8 +86,8 @@ scene::Scene random_scene(std::size_t triangles, double pixels) {
 
 imogene::Machine quick_host_machine(std::size_t processors) {
   imogene::Machine machine;
-  machine.host.computation_units = 8;
-  machine.host.processors_per_unit = static_cast<std::int64_t>(processors / 8);
+  machine.host.computation_units = kBoards;
+  machine.host.processors_per_unit = static_cast<std::int64_t>(processors / kBoards);
   machine.host.clock_hz = 1'000'000'000;
   machine.host.sustained_mflops = 1e6;
   machine.host.bus_cycles_per_word = 1;
@@ -109,7 +110,10 @@ std::vector<plain::Triangle> plain_triangles(const scene::Scene& scene) {
         }
     }
   }
-  return triangles;
+  std::vector<plain::Triangle> by_processor;
+  for (std::size_t board = 0; board < kBoards; ++board)
+    for (std::size_t i = board; i < triangles.size(); i += kBoards) by_processor.push_back(triangles[i]);
+  return by_processor;
 }
 
 plain::Pose plain_pose(const scene::Pose& pose) {

@@ -18,7 +18,8 @@ scene::Scene random_scene(std::size_t triangles, double pixels);
 // A machine of 004 of `processors`, a multiple of eight, whose host is never late: so every frame shown is a new one.
 imogene::Machine quick_host_machine(std::size_t processors);
 
-// The same triangles and the same pose, for the plain loop.
+// The same triangles and the same pose, for the plain loop; triangles in the order of their processors' numbers, which
+// decides where depths are equal.
 std::vector<plain::Triangle> plain_triangles(const scene::Scene& scene);
 plain::Pose plain_pose(const scene::Pose& pose);
 

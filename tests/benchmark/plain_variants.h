@@ -22,7 +22,7 @@ std::unique_ptr<Loop> make(std::vector<Triangle> triangles, const Tables& tables
 // "baseline", "avx2" or "avx512": the best that this processor has.
 inline std::string best_variant() {
   if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
-      __builtin_cpu_supports("avx512vbmi"))
+      __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512vpopcntdq"))
     return "avx512";
   return __builtin_cpu_supports("avx2") ? "avx2" : "baseline";
 }
