@@ -36,7 +36,8 @@ std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> b
                      out.material.data(),
                      out.object.data()});
   prenormaliser_.line({normal_[0].data(), normal_[1].data(), normal_[2].data()},
-                      {out.normal_x.data(), out.normal_y.data(), out.normal_z.data()}, columns);
+                      {out.normal_x.data(), out.normal_y.data(), out.normal_z.data()}, columns,
+                      out.object.data());
   return seen;
 }
 

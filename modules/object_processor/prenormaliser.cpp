@@ -42,10 +42,11 @@ LinkNormal Prenormaliser::operator()(const std::array<std::uint32_t, 3>& normal)
 }
 
 void Prenormaliser::line(std::array<const std::uint32_t*, 3> normal, std::array<std::uint16_t*, 3> link,
-                         std::size_t count) const {
+                         std::size_t count, const std::uint32_t* wanted) const {
   if (word_bits_ <= kWordsOfKernel) {
     kernels_->prenormalise({{normal[0], normal[1], normal[2]},
                             {link[0], link[1], link[2]},
+                            wanted,
                             count,
                             word_bits_,
                             normal_bits_});

@@ -77,6 +77,7 @@ struct ResolveRequest {
 struct PrenormaliseRequest {
   const std::uint32_t* normal[3] = {};  // words of word_bits; 16 to spare, as for link
   std::uint16_t* link[3] = {};
+  const std::uint32_t* wanted = nullptr;  // null, or 0 for pixels whose words nobody reads; 16 to spare
   std::size_t count = 0;
   unsigned word_bits = 24;  // at most 25
   unsigned normal_bits = 12;

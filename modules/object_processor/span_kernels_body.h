@@ -297,6 +297,10 @@ void prenormalise(const PrenormaliseRequest& request) {
   const __m512i zeros = all(32 - magnitude_bits);
   const __m512i sign_bit = all(1U << magnitude_bits);
   for (std::size_t x = 0; x < request.count; x += 16) {
+    if (request.wanted != nullptr) {
+      const __m512i wanted = _mm512_loadu_si512(request.wanted + x);
+      if (_mm512_test_epi32_mask(wanted, wanted) == 0) continue;
+    }
     __m512i magnitude[3], sign[3];
     __m512i together = at_least;
     for (int i = 0; i < 3; ++i) {

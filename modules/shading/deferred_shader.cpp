@@ -32,7 +32,7 @@ DeferredShader::DeferredShader(const ShadingParameters& parameters, std::int64_t
       materials_(static_cast<std::size_t>(parameters.materials)),
       lights_(static_cast<std::size_t>(parameters.lights)),
       banks_(banks == 2 ? 2 : 1, Bank{TableBank(parameters), LoadRecord(), Bank::Copy::stale, std::nullopt}),
-      kernel_(shade_kernel(variant)) {
+      kernels_(&shade_kernels(variant)) {
   // A converter of fewer bits still drives the display to full scale.
   for (std::uint32_t level = 0; level <= full_level_; ++level)
     display_.push_back(static_cast<std::uint8_t>((level * 510 + full_level_) / (2 * full_level_)));

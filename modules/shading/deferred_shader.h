@@ -179,7 +179,7 @@ class DeferredShader {
   std::size_t front_ = 0;
   ShadingCounters counters_;
   Scratch scratch_;
-  ShadeKernel kernel_;
+  const ShadeKernels* kernels_;
 };
 
 }  // namespace rastertlm::shading

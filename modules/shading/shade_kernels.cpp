@@ -2,18 +2,18 @@
 
 namespace rastertlm::shading {
 
-ShadeTotals shade_baseline(const ShadeRequest& request);
-ShadeTotals shade_avx2(const ShadeRequest& request);
-ShadeTotals shade_avx512(const ShadeRequest& request);
+extern const ShadeKernels shade_kernels_baseline;
+extern const ShadeKernels shade_kernels_avx2;
+extern const ShadeKernels shade_kernels_avx512;
 
-ShadeKernel shade_kernel(VectorVariant variant) {
+const ShadeKernels& shade_kernels(VectorVariant variant) {
   switch (variant) {
     case VectorVariant::avx512:
-      return shade_avx512;
+      return shade_kernels_avx512;
     case VectorVariant::avx2:
-      return shade_avx2;
+      return shade_kernels_avx2;
     default:
-      return shade_baseline;
+      return shade_kernels_baseline;
   }
 }
 

@@ -161,7 +161,7 @@ const ShadeTables* DeferredShader::copy_of_tables() {
     std::vector<std::size_t> lit;
     for (std::size_t l = 0; l < lights_.size(); ++l)
       if (lights_[l].set) lit.push_back(l);
-    bank.copy = ShadeTables::of(bank.tables, normaliser_, parameters_, magnitude_bits_, lit);
+    bank.copy = ShadeTables::of(bank.tables, normaliser_, parameters_, magnitude_bits_ + 1, lit, *kernels_);
     bank.state = Bank::Copy::made;
   }
   return bank.copy ? &*bank.copy : nullptr;
@@ -180,7 +180,7 @@ void DeferredShader::shade_line_from(const ShadeTables& tables, const frame::Fra
   request.object = in.object.data() + begin;
   request.count = end - begin;
   request.rgb = out.levels.data() + 3 * begin;
-  const ShadeTotals totals = kernel_(request);
+  const ShadeTotals totals = kernels_->shade(request);
   check_material(totals.largest_material, totals.pixels);
   counters_.pixels += totals.pixels;
   counters_.zero_normals += totals.zero_normals;
