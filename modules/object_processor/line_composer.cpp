@@ -43,8 +43,7 @@ std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> b
 
 void LineComposer::compare(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
                            frame::FragmentLine& out) {
-  std::fill(out.depth.begin(), out.depth.end(), word_mask_);
-  std::fill(winner_.begin(), winner_.end(), 0U);
+  kernels_->clear(out.depth.data(), winner_.data(), out.columns() + 1, word_mask_);
   std::uint32_t mark = 1;
   for (const frame::CoveredLine* board : boards) {
     kernels_->draw({board->spans.data(), board->count, line, word_mask_, mark, sources_.data(), out.depth.data(),

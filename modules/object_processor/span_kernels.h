@@ -88,6 +88,8 @@ struct SpanKernels {
   void (*band)(const Borders& borders, const frame::FragmentSource& source, const BandRequest& request, BandSpans& out);
   // The spans of a line of a band on which no depth is doubtful.
   LineTotals (*line)(const LineRequest& request);
+  // Nobody seen: `count` depths of `nothing` and marks of 0. Both have 16 words to spare.
+  void (*clear)(std::uint32_t* depth, std::uint32_t* winner, std::size_t count, std::uint32_t nothing);
   // The depth comparator along spans, in order: strictly nearer wins.
   void (*draw)(const DrawRequest& request);
   // Words of the winners, by runs of one winner. Returns how many pixels have one.

@@ -150,6 +150,21 @@ LineTotals line(const LineRequest& request) {
   return totals;
 }
 
+void clear(std::uint32_t* __restrict depth, std::uint32_t* __restrict winner, std::size_t count,
+           std::uint32_t nothing) {
+#if defined(__AVX512BW__)
+  for (std::size_t x = 0; x < count; x += 16) {
+    _mm512_storeu_si512(depth + x, all(nothing));
+    _mm512_storeu_si512(winner + x, _mm512_setzero_si512());
+  }
+#else
+  for (std::size_t x = 0; x < count; ++x) {
+    depth[x] = nothing;
+    winner[x] = 0;
+  }
+#endif
+}
+
 #if defined(__AVX512BW__)
 
 void draw(const DrawRequest& request) {
@@ -367,6 +382,6 @@ void prenormalise(const PrenormaliseRequest& request) {
 }  // namespace
 
 extern const SpanKernels RASTERTLM_KERNELS;
-const SpanKernels RASTERTLM_KERNELS{band, line, draw, resolve, prenormalise};
+const SpanKernels RASTERTLM_KERNELS{band, line, clear, draw, resolve, prenormalise};
 
 }  // namespace rastertlm::object_processor

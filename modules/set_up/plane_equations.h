@@ -23,9 +23,10 @@ template <class T>
 WideInteger to_wide_integer(T value) {
   if constexpr (!std::is_arithmetic_v<T>) ++geometry::operation_counts.convert;
   constexpr double kLimit = 0x1p90;
-  constexpr double kNarrow = 0x1p62;
-  const double rounded = std::floor(geometry::plain(value) + 0.5);
-  if (rounded > -kNarrow && rounded < kNarrow) return static_cast<std::int64_t>(rounded);
+  constexpr double kNarrow = 0x1p61;
+  const double plain = geometry::plain(value);
+  if (plain > -kNarrow && plain < kNarrow) return round_half_up(plain);
+  const double rounded = std::floor(plain + 0.5);
   return rounded > -kLimit && rounded < kLimit ? static_cast<WideInteger>(rounded) : WideInteger{0};
 }
 
