@@ -17,7 +17,7 @@ namespace rastertlm::object_processor {
 
 class LineComposer {
  public:
-  // `observe`: count how many objects cover each pixel; without, the coverage of a line means nothing.
+  // `observe`: a line has its depths, and how many objects cover each pixel; without, they mean nothing.
   LineComposer(const ObjectProcessorParameters& parameters, std::size_t columns, bool observe = true,
                VectorVariant variant = vector_variant());
 
@@ -28,14 +28,20 @@ class LineComposer {
                         frame::FragmentLine& out);
 
  private:
-  void compare(std::span<const frame::CoveredLine* const> boards, std::uint32_t line, frame::FragmentLine& out);
-  static void count_coverage(std::span<const frame::CoveredLine* const> boards, frame::FragmentLine& out);
+  void compare(std::span<const frame::CoveredLine* const> boards, std::uint32_t line, std::size_t columns,
+               bool in_keys);
+  void observe(std::span<const frame::CoveredLine* const> boards, bool in_keys, frame::FragmentLine& out) const;
 
+  unsigned word_bits_;
   std::uint32_t word_mask_;
   Prenormaliser prenormaliser_;
   bool observe_;
   const SpanKernels* kernels_;
-  std::vector<std::uint32_t> winner_;                  // mark of the nearest: 0 nobody, else a span, counted from 1
+  struct alignas(64) Sixteen {
+    std::uint32_t words[16];
+  };
+  std::vector<Sixteen> depth_;                         // of the nearest so far; or with its mark, where both fit
+  std::vector<Sixteen> winner_;                        // its mark: 0 nobody, else a span, counted from 1
   std::vector<const frame::FragmentSource*> sources_;  // by mark
   std::array<std::vector<std::uint32_t>, 3> normal_;   // words of the winners before normalisation
 };

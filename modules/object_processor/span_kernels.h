@@ -53,19 +53,26 @@ struct LineTotals {
   std::uint64_t seen_pixels = 0;  // of their union
 };
 
+// Where depth and mark share 32 bits, the nearest is the least of such keys: depth above, the mark below, so that equal
+// depth keeps the lower mark. Depth begins at bit 32 - word_bits.
+inline constexpr unsigned kMarkBits = 8;
+inline constexpr std::uint32_t kMarkMask = (1U << kMarkBits) - 1;
+
 struct DrawRequest {
   const frame::CoveredSpan* spans = nullptr;
   std::size_t count = 0;
   std::uint32_t line = 0;
-  std::uint32_t word_mask = 0;
-  std::uint32_t first_mark = 0;     // of the first span; each has the next
+  unsigned word_bits = 24;
+  std::uint32_t first_mark = 0;                     // of the first span; each has the next
   const frame::FragmentSource** sources = nullptr;  // written, by mark
-  std::uint32_t* depth = nullptr;   // nearest so far, and 16 words to spare
-  std::uint32_t* winner = nullptr;  // mark of the nearest, likewise
+  // At multiples of 64 bytes, 16 words to spare:
+  std::uint32_t* depth = nullptr;   // nearest so far
+  std::uint32_t* winner = nullptr;  // mark of the nearest; null: depth holds keys
 };
 
 struct ResolveRequest {
-  const std::uint32_t* winner = nullptr;
+  const std::uint32_t* winner = nullptr;  // marks, in the bits of mark_mask
+  std::uint32_t mark_mask = 0;
   std::uint32_t columns = 0;
   std::uint32_t line = 0;
   const frame::FragmentSource* const* sources = nullptr;  // by mark; 0 is nobody
@@ -88,8 +95,8 @@ struct SpanKernels {
   void (*band)(const Borders& borders, const frame::FragmentSource& source, const BandRequest& request, BandSpans& out);
   // The spans of a line of a band on which no depth is doubtful.
   LineTotals (*line)(const LineRequest& request);
-  // Nobody seen: `count` depths of `nothing` and marks of 0. Both have 16 words to spare.
-  void (*clear)(std::uint32_t* depth, std::uint32_t* winner, std::size_t count, std::uint32_t nothing);
+  // `count` words, and 16 to spare.
+  void (*fill)(std::uint32_t* words, std::size_t count, std::uint32_t value);
   // The depth comparator along spans, in order: strictly nearer wins.
   void (*draw)(const DrawRequest& request);
   // Words of the winners, by runs of one winner. Returns how many pixels have one.

@@ -150,61 +150,110 @@ LineTotals line(const LineRequest& request) {
   return totals;
 }
 
-void clear(std::uint32_t* __restrict depth, std::uint32_t* __restrict winner, std::size_t count,
-           std::uint32_t nothing) {
+void fill_words(std::uint32_t* words, std::size_t count, std::uint32_t value) {
 #if defined(__AVX512BW__)
-  for (std::size_t x = 0; x < count; x += 16) {
-    _mm512_storeu_si512(depth + x, all(nothing));
-    _mm512_storeu_si512(winner + x, _mm512_setzero_si512());
-  }
+  for (std::size_t x = 0; x < count; x += 16) _mm512_storeu_si512(words + x, all(value));
 #else
-  for (std::size_t x = 0; x < count; ++x) {
-    depth[x] = nothing;
-    winner[x] = 0;
-  }
+  for (std::size_t x = 0; x < count; ++x) words[x] = value;
 #endif
 }
 
+inline std::uint32_t start_of(const DrawRequest& request, const WordPlane& depth, std::uint32_t x) {
+  return depth.a * x + depth.b * (request.line + 1) + depth.c;
+}
+
 #if defined(__AVX512BW__)
 
-void draw(const DrawRequest& request) {
+// Calls visit(x, lanes) for the 16 columns from each multiple of 16 that a span has any of: whole vectors, so that what
+// one span has stored the next loads as it was stored.
+template <class Visit>
+inline void visit_vectors(const CoveredSpan& span, const Visit& visit) {
+  const std::uint32_t end = span.end;
+  std::uint32_t x = span.begin & ~15U;
+  std::uint32_t covered = 0xFFFFU << (span.begin - x) & 0xFFFFU;
+  for (; x + 16 < end; x += 16) {
+    visit(x, static_cast<__mmask16>(covered));
+    covered = 0xFFFFU;
+  }
+  visit(x, static_cast<__mmask16>(covered & (0xFFFFU >> (x + 16 - end))));
+}
+
+void draw_keys(const DrawRequest& request) {
+  const unsigned up = 32 - request.word_bits;
+  std::uint32_t* const keys = request.depth;
+  const CoveredSpan* const spans = request.spans;
+  const FragmentSource** const sources = request.sources + request.first_mark;
   const __m512i ramp = from_0_to_15();
-  const __m512i word_mask = all(request.word_mask);
-  std::uint32_t mark = request.first_mark;
-  for (std::size_t i = 0; i < request.count; ++i, ++mark) {
-    const CoveredSpan& span = request.spans[i];
-    const WordPlane& depth = span.source->depth;
-    request.sources[mark] = span.source;
-    std::uint32_t word = depth.a * span.begin + depth.b * (request.line + 1) + depth.c;
-    const __m512i steps = _mm512_mullo_epi32(all(depth.a), ramp);
-    const __m512i marks = all(mark);
-    for (std::uint32_t x = span.begin; x < span.end; x += 16) {
-      const std::uint32_t left = span.end - x;
-      const auto covered = static_cast<__mmask16>(left >= 16 ? 0xFFFFU : (1U << left) - 1);
-      const __m512i words = _mm512_and_si512(_mm512_add_epi32(all(word), steps), word_mask);
-      const __m512i old = _mm512_loadu_si512(request.depth + x);
-      const __mmask16 nearer = _mm512_mask_cmplt_epu32_mask(covered, words, old);
-      _mm512_mask_storeu_epi32(request.depth + x, nearer, words);
-      _mm512_mask_storeu_epi32(request.winner + x, nearer, marks);
-      word += 16 * depth.a;
-    }
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const FragmentSource* source = spans[i].source;
+    sources[i] = source;
+    const std::uint32_t step = source->depth.a << up;
+    const std::uint32_t mark = request.first_mark + static_cast<std::uint32_t>(i);
+    const std::uint32_t start = start_of(request, source->depth, spans[i].begin & ~15U) << up | mark;
+    __m512i key = _mm512_add_epi32(all(start), _mm512_mullo_epi32(all(step), ramp));
+    const __m512i next = all(16 * step);
+    visit_vectors(spans[i], [&](std::uint32_t x, __mmask16 covered) {
+      const __m512i old = _mm512_load_si512(keys + x);
+      _mm512_store_si512(keys + x, _mm512_mask_min_epu32(old, covered, old, key));
+      key = _mm512_add_epi32(key, next);
+    });
+  }
+}
+
+void draw_apart(const DrawRequest& request) {
+  std::uint32_t* const depths = request.depth;
+  std::uint32_t* const winners = request.winner;
+  const __m512i ramp = from_0_to_15();
+  const __m512i word_mask = all(request.word_bits < 32 ? (1U << request.word_bits) - 1 : ~0U);
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const FragmentSource* source = request.spans[i].source;
+    const std::uint32_t mark = request.first_mark + static_cast<std::uint32_t>(i);
+    request.sources[mark] = source;
+    const WordPlane& depth = source->depth;
+    __m512i word = _mm512_add_epi32(all(start_of(request, depth, request.spans[i].begin & ~15U)),
+                                    _mm512_mullo_epi32(all(depth.a), ramp));
+    const __m512i next = all(16 * depth.a);
+    visit_vectors(request.spans[i], [&](std::uint32_t x, __mmask16 covered) {
+      const __m512i here = _mm512_and_si512(word, word_mask);
+      const __m512i old = _mm512_load_si512(depths + x);
+      const __mmask16 nearer = _mm512_mask_cmplt_epu32_mask(covered, here, old);
+      _mm512_store_si512(depths + x, _mm512_mask_mov_epi32(old, nearer, here));
+      _mm512_mask_store_epi32(winners + x, nearer, all(mark));
+      word = _mm512_add_epi32(word, next);
+    });
   }
 }
 
 #else
+
+void draw_keys(const DrawRequest& request) {
+  const unsigned up = 32 - request.word_bits;
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const CoveredSpan& span = request.spans[i];
+    const std::uint32_t mark = request.first_mark + static_cast<std::uint32_t>(i);
+    request.sources[mark] = span.source;
+    const std::uint32_t step = span.source->depth.a << up;
+    std::uint32_t key = start_of(request, span.source->depth, span.begin) << up | mark;
+    std::uint32_t* __restrict keys = request.depth + span.begin;
+    const std::size_t count = span.end - span.begin;
+    for (std::size_t x = 0; x < count; ++x) {
+      keys[x] = key < keys[x] ? key : keys[x];
+      key += step;
+    }
+  }
+}
 
 // Word: as what depths are compared. Narrower ones than 32 bits are not negative, and vectors without unsigned
 // comparisons do those faster as signed.
 template <class Word>
 void draw_as(const DrawRequest& request) {
-  std::uint32_t mark = request.first_mark;
-  for (std::size_t i = 0; i < request.count; ++i, ++mark) {
+  const std::uint32_t mask = request.word_bits < 32 ? (1U << request.word_bits) - 1 : ~0U;
+  for (std::size_t i = 0; i < request.count; ++i) {
     const CoveredSpan& span = request.spans[i];
-    const WordPlane& depth = span.source->depth;
+    const std::uint32_t mark = request.first_mark + static_cast<std::uint32_t>(i);
     request.sources[mark] = span.source;
-    const std::uint32_t step = depth.a;
-    const std::uint32_t mask = request.word_mask;
-    std::uint32_t word = depth.a * span.begin + depth.b * (request.line + 1) + depth.c;
+    const std::uint32_t step = span.source->depth.a;
+    std::uint32_t word = start_of(request, span.source->depth, span.begin);
     std::uint32_t* __restrict nearest = request.depth + span.begin;
     std::uint32_t* __restrict winner = request.winner + span.begin;
     const std::size_t count = span.end - span.begin;
@@ -218,8 +267,8 @@ void draw_as(const DrawRequest& request) {
   }
 }
 
-void draw(const DrawRequest& request) {
-  if (request.word_mask >> 31 == 0)
+void draw_apart(const DrawRequest& request) {
+  if (request.word_bits < 32)
     draw_as<std::int32_t>(request);
   else
     draw_as<std::uint32_t>(request);
@@ -227,43 +276,64 @@ void draw(const DrawRequest& request) {
 
 #endif
 
-void fill(const ResolveRequest& request, const FragmentSource* source, std::uint32_t begin, std::uint32_t end) {
+void draw(const DrawRequest& request) {
+  if (request.winner == nullptr)
+    draw_keys(request);
+  else
+    draw_apart(request);
+}
+
+// What a run of one winner shows.
+struct Planes {
+  explicit Planes(const ResolveRequest& request)
+      : line(request.line + 1),
+        normal{request.normal[0], request.normal[1], request.normal[2]},
+        material(request.material),
+        object(request.object) {}
+  void fill(const FragmentSource* source, std::uint32_t begin, std::uint32_t end) const;
+
+  std::uint32_t line;
+  std::uint32_t* normal[3];
+  std::uint8_t* material;
+  std::uint32_t* object;
+};
+
+inline void Planes::fill(const FragmentSource* source, std::uint32_t begin, std::uint32_t end) const {
 #if defined(__AVX512BW__)
   if (source == nullptr) {
-    for (std::uint32_t x = begin; x < end; x += 16) _mm512_storeu_si512(request.object + x, _mm512_setzero_si512());
+    for (std::uint32_t x = begin; x < end; x += 16) _mm512_storeu_si512(object + x, _mm512_setzero_si512());
     return;
   }
-  const __m512i object = all(source->object);
-  const __m128i material = _mm_set1_epi8(static_cast<char>(source->material));
-  const __m512i ramp = from_0_to_15();
+  const __m512i objects = all(source->object);
+  const __m128i materials = _mm_set1_epi8(static_cast<char>(source->material));
+  const __m512i ramp = _mm512_add_epi32(from_0_to_15(), all(begin));
   __m512i words[3], step[3];
   for (int i = 0; i < 3; ++i) {
     const WordPlane& plane = source->normal[i];
-    const std::uint32_t word = plane.a * begin + plane.b * (request.line + 1) + plane.c;
-    words[i] = _mm512_add_epi32(all(word), _mm512_mullo_epi32(all(plane.a), ramp));
+    words[i] = _mm512_add_epi32(all(plane.b * line + plane.c), _mm512_mullo_epi32(all(plane.a), ramp));
     step[i] = all(16 * plane.a);
   }
   for (std::uint32_t x = begin; x < end; x += 16) {
-    _mm512_storeu_si512(request.object + x, object);
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(request.material + x), material);
+    _mm512_storeu_si512(object + x, objects);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(material + x), materials);
     for (int i = 0; i < 3; ++i) {
-      _mm512_storeu_si512(request.normal[i] + x, words[i]);
+      _mm512_storeu_si512(normal[i] + x, words[i]);
       words[i] = _mm512_add_epi32(words[i], step[i]);
     }
   }
 #else
-  const std::uint32_t object = source != nullptr ? source->object : 0;
-  std::uint32_t* __restrict objects = request.object;
-  for (std::uint32_t x = begin; x < end; ++x) objects[x] = object;
+  const std::uint32_t number = source != nullptr ? source->object : 0;
+  std::uint32_t* __restrict objects = object;
+  for (std::uint32_t x = begin; x < end; ++x) objects[x] = number;
   if (source == nullptr) return;
-  const auto material = static_cast<std::uint8_t>(source->material);
-  std::uint8_t* __restrict materials = request.material;
-  for (std::uint32_t x = begin; x < end; ++x) materials[x] = material;
+  const auto index = static_cast<std::uint8_t>(source->material);
+  std::uint8_t* __restrict materials = material;
+  for (std::uint32_t x = begin; x < end; ++x) materials[x] = index;
   for (int i = 0; i < 3; ++i) {
     const WordPlane& plane = source->normal[i];
     const std::uint32_t step = plane.a;
-    std::uint32_t word = plane.a * begin + plane.b * (request.line + 1) + plane.c;
-    std::uint32_t* __restrict words = request.normal[i];
+    std::uint32_t word = plane.a * begin + plane.b * line + plane.c;
+    std::uint32_t* __restrict words = normal[i];
     for (std::uint32_t x = begin; x < end; ++x) {
       words[x] = word;
       word += step;
@@ -273,32 +343,30 @@ void fill(const ResolveRequest& request, const FragmentSource* source, std::uint
 }
 
 std::uint64_t resolve(const ResolveRequest& request) {
-  const std::uint32_t* winner = request.winner;
+  const Planes planes(request);
+  const std::uint32_t* const winner = request.winner;
+  const std::uint32_t columns = request.columns;
+  const std::uint32_t mask = request.mark_mask;
+  const FragmentSource* const* const sources = request.sources;
   std::uint64_t seen = 0;
-  const auto run = [&](std::uint32_t from, std::uint32_t to) {
-    const FragmentSource* source = request.sources[winner[from]];
-    seen += source != nullptr ? to - from : 0;
-    fill(request, source, from, to);
-  };
   std::uint32_t begin = 0;
+  const auto run = [&](std::uint32_t end) {
+    const FragmentSource* source = sources[winner[begin] & mask];
+    seen += source != nullptr ? end - begin : 0;
+    planes.fill(source, begin, end);
+    begin = end;
+  };
 #if defined(__AVX512BW__)
-  for (std::uint32_t x = 0; x < request.columns; x += 16) {
-    std::uint32_t changes =
-        _mm512_cmpneq_epu32_mask(_mm512_loadu_si512(winner + x), _mm512_loadu_si512(winner + x + 1));
-    const std::uint32_t left = request.columns - x;
+  for (std::uint32_t x = 0; x < columns; x += 16) {
+    const __m512i other = _mm512_xor_si512(_mm512_loadu_si512(winner + x), _mm512_loadu_si512(winner + x + 1));
+    std::uint32_t changes = _mm512_test_epi32_mask(other, all(mask));
+    const std::uint32_t left = columns - x;
     if (left <= 16) changes = (changes & ((1U << left) - 1)) | 1U << (left - 1);
-    for (; changes != 0; changes &= changes - 1) {
-      const std::uint32_t end = x + static_cast<std::uint32_t>(__builtin_ctz(changes)) + 1;
-      run(begin, end);
-      begin = end;
-    }
+    for (; changes != 0; changes &= changes - 1) run(x + static_cast<std::uint32_t>(__builtin_ctz(changes)) + 1);
   }
 #else
-  for (std::uint32_t x = 1; x <= request.columns; ++x) {
-    if (x < request.columns && winner[x] == winner[begin]) continue;
-    run(begin, x);
-    begin = x;
-  }
+  for (std::uint32_t x = 1; x <= columns; ++x)
+    if (x == columns || ((winner[x] ^ winner[begin]) & mask) != 0) run(x);
 #endif
   return seen;
 }
@@ -382,6 +450,6 @@ void prenormalise(const PrenormaliseRequest& request) {
 }  // namespace
 
 extern const SpanKernels RASTERTLM_KERNELS;
-const SpanKernels RASTERTLM_KERNELS{band, line, clear, draw, resolve, prenormalise};
+const SpanKernels RASTERTLM_KERNELS{band, line, fill_words, draw, resolve, prenormalise};
 
 }  // namespace rastertlm::object_processor
