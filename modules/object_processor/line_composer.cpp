@@ -51,7 +51,7 @@ void LineComposer::compare(std::span<const frame::CoveredLine* const> boards, st
   if (!in_keys) kernels_->fill(winner_.front().words, columns + 1, 0);
   std::uint32_t mark = 1;
   for (const frame::CoveredLine* board : boards) {
-    kernels_->draw({board->spans.data(), board->count, line, word_bits_, mark, sources_.data(), depth_.front().words,
+    kernels_->draw({board->spans, board->count, line, word_bits_, mark, sources_.data(), depth_.front().words,
                     in_keys ? nullptr : winner_.front().words});
     mark += static_cast<std::uint32_t>(board->count);
   }

@@ -5,19 +5,11 @@
 #include <array>
 #include <cstdint>
 
+#include "modules/object_processor/interval.h"
 #include "modules/object_processor/triangle_processor.h"
 #include "src/base/fixed_point.h"
 
 namespace rastertlm::object_processor {
-
-// Columns or lines [begin, end).
-struct Interval {
-  std::int32_t begin = 0;
-  std::int32_t end = 0;
-  bool empty() const { return begin >= end; }
-  bool holds(std::int32_t position) const { return begin <= position && position < end; }
-  friend bool operator==(const Interval&, const Interval&) = default;
-};
 
 // A word along a line, moved to the top of 32 bits: there the wrap of the word is that of the machine's integers, and
 // its sign bit theirs. At column x it is start + x * step modulo 2^32.

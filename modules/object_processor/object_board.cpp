@@ -71,7 +71,7 @@ ObjectBoard::ObjectBoard(const ObjectProcessorParameters& parameters, std::uint3
       bucket_begin_(std::size_t{(lines + kBandLines - 1) / kBandLines} + 1, 0),
       touched_by_(std::size_t{lines} + 1, 0),
       winner_(std::size_t{columns} + 1, 0),
-      seen_((columns + 63) / 64, 0) {
+      seen_(std::size_t{kBandLines} * ((columns + 63) / 64), 0) {
   for (auto& component : normal_) component.resize(columns + frame::FragmentLine::kSpare);
   if (everything_ && processors_ > 0) {
     writable(processors_ - 1, 0);
@@ -164,7 +164,7 @@ std::uint64_t ObjectBoard::memory_bytes() const {
                                sizeof(Interval) + 2 * sizeof(std::uint8_t);
   const std::uint64_t indices = changes_.capacity() + bucket_begin_.capacity() + bucket_slots_.capacity() +
                                 touched_by_.capacity() + active_.capacity() + merged_.capacity();
-  return loading_.capacity() * a_slot + indices * sizeof(std::uint32_t) + spans_.capacity() * sizeof(BandSpans) +
+  return loading_.capacity() * a_slot + indices * sizeof(std::uint32_t) + spans_.capacity() * sizeof(frame::CoveredSpan) +
          std::uint64_t{columns_} * 4 * sizeof(std::uint32_t);
 }
 
@@ -340,68 +340,58 @@ void ObjectBoard::visit_stepped(const LineEdges& at, std::uint32_t wrapping, Int
 void ObjectBoard::find_spans() {
   if (spans_band_ == current_band_) return;
   spans_band_ = current_band_;
-  spans_.resize(active_.size());
-  spans_careful_ = false;
-  spans_doubtful_ = 0;
-  BandRequest request{0, 0, 0, current_band_ * kBandLines, columns_, format_.mask()};
-  for (std::size_t i = 0; i < active_.size(); ++i) {
-    const std::uint32_t slot = active_[i];
-    if (careful_[slot] != 0) {
-      spans_careful_ = true;
-      return;  // lines of this band are found one by one
-    }
-    request.slot = slot;
-    request.begin = intervals_[slot].begin;
-    request.end = intervals_[slot].end;
-    kernels_.band(borders_[slot], sources_[slot], request, spans_[i]);
-    spans_doubtful_ |= spans_[i].doubtful;
-  }
+  spans_careful_ = std::any_of(active_.begin(), active_.end(), [this](auto slot) { return careful_[slot] != 0; });
+  if (spans_careful_) return;
+  if (spans_.size() < kBandLines * (active_.size() + 1)) spans_.resize(kBandLines * (active_.size() + 1));
+  for (std::size_t k = 0; k < kBandLines; ++k) band_lines_.line[k].spans = &spans_[k * (active_.size() + 1)];
+  kernels_.band({active_.data(), active_.size(), borders_.data(), intervals_.data(), sources_.data(),
+                 current_band_ * kBandLines, columns_, format_.mask(), seen_.data(), seen_.size() / kBandLines},
+                band_lines_);
 }
 
-void ObjectBoard::cover_line(std::uint32_t line, frame::CoveredLine& out) {
+const frame::CoveredLine& ObjectBoard::cover_line(std::uint32_t line) {
   check_line(line, columns_);
   select_band(line);
-  out.count = 0;
-  out.seen_pixels = 0;
-  if (touched_by_[line] == 0) return;
+  covered_ = {};
+  const std::uint32_t touched = touched_by_[line];
+  if (touched == 0) return covered_;
   ++counters_.lines_evaluated;
-  counters_.processors_visited += touched_by_[line];
+  counters_.processors_visited += touched;
   find_spans();
-  const std::uint32_t line_in_band = line % kBandLines;
   const std::uint64_t in_before = counters_.fragments_in;
-  if (spans_careful_ || (spans_doubtful_ >> line_in_band & 1U) != 0) {
-    cover_carefully(line, out);
+  const std::uint32_t line_in_band = line % kBandLines;
+  if (spans_careful_ || (band_lines_.doubtful >> line_in_band & 1U) != 0) {
+    cover_carefully(line);
   } else {
-    if (out.spans.size() < active_.size()) out.spans.resize(active_.size());
-    const LineTotals totals = kernels_.line({spans_.data(), spans_.size(), line_in_band, sources_.data(),
-                                             out.spans.data(), seen_.data(), seen_.size()});
-    out.count = totals.spans;
-    out.seen_pixels = totals.seen_pixels;
-    counters_.fragments_in += totals.fragments;
+    const BandLine& found = band_lines_.line[line_in_band];
+    covered_ = {found.spans, found.count, found.seen_pixels};
+    counters_.fragments_in += found.fragments;
   }
-  counters_.fragments_kept += out.seen_pixels;
-  counters_.fragments_hidden += counters_.fragments_in - in_before - out.seen_pixels;
+  counters_.fragments_kept += covered_.seen_pixels;
+  counters_.fragments_hidden += counters_.fragments_in - in_before - covered_.seen_pixels;
+  return covered_;
 }
 
 // A line on which an edge could wrap, or a depth reach the word of nothing: span by span, as evaluate_line draws it.
-void ObjectBoard::cover_carefully(std::uint32_t line, frame::CoveredLine& out) {
+void ObjectBoard::cover_carefully(std::uint32_t line) {
   std::fill(seen_.begin(), seen_.end(), 0U);
+  careful_spans_.clear();
   for (const std::uint32_t slot : active_) {
     if (!intervals_[slot].holds(static_cast<std::int32_t>(line))) continue;
     const LineEdges at = line_edges(slot, line);
     visit_spans(at, {0, static_cast<std::int32_t>(columns_)}, [&](const Interval& span) {
       counters_.fragments_in += static_cast<std::uint64_t>(span.end - span.begin);
-      cover_span(slot, at, span, out);
+      cover_span(slot, at, span);
     });
   }
-  for (const std::uint64_t word : seen_) out.seen_pixels += static_cast<std::uint64_t>(std::popcount(word));
+  covered_ = {careful_spans_.data(), careful_spans_.size(), 0};
+  for (const std::uint64_t word : seen_) covered_.seen_pixels += static_cast<std::uint64_t>(std::popcount(word));
 }
 
-void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::CoveredLine& out) {
+void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span) {
   const auto begin = static_cast<std::uint32_t>(span.begin);
   const auto end = static_cast<std::uint32_t>(span.end);
-  if (out.spans.size() <= out.count) out.spans.resize(2 * out.count + 16);
-  out.spans[out.count++] = {begin, end, &sources_[slot]};
+  careful_spans_.push_back({begin, end, &sources_[slot]});
   for (std::uint32_t column = begin; column < end; ++column)
     if (((at.depth + at.depth_step * column) & format_.mask()) != format_.mask())
       seen_[column / 64] |= std::uint64_t{1} << (column % 64);

@@ -72,10 +72,10 @@ class ObjectBoard {
   // slot once.
   void evaluate_line(std::uint32_t line, frame::FragmentLine& out);
 
-  // The same as spans, for whoever compares them (LineComposer): an empty line and everything that the board's
-  // processors cover on it. Counts what evaluate_line into an empty line counts. Not with late carries
-  // (covers_in_spans).
-  void cover_line(std::uint32_t line, frame::CoveredLine& out);
+  // The same as spans, for whoever compares them (LineComposer): everything that the board's processors cover on the
+  // line. Counts what evaluate_line into an empty line counts. What is returned stays until the next line. Not with
+  // late carries (covers_in_spans).
+  const frame::CoveredLine& cover_line(std::uint32_t line);
   bool covers_in_spans() const { return !late_carry_; }
 
   const BoardCounters& counters() const { return counters_; }
@@ -109,8 +109,8 @@ class ObjectBoard {
   void visit_spans(const LineEdges& at, Interval span, const Draw& draw);
   template <class Draw>
   void visit_stepped(const LineEdges& at, std::uint32_t wrapping, Interval span, const Draw& draw);
-  void cover_carefully(std::uint32_t line, frame::CoveredLine& out);
-  void cover_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::CoveredLine& out);
+  void cover_carefully(std::uint32_t line);
+  void cover_span(std::uint32_t slot, const LineEdges& at, Interval span);
   void draw_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out);
   void resolve_winners(std::uint32_t line, frame::FragmentLine& out);
   void fill_run(std::uint32_t slot, std::uint32_t line, std::size_t begin, std::size_t end, frame::FragmentLine& out);
@@ -146,16 +146,18 @@ class ObjectBoard {
   std::vector<std::uint32_t> active_;  // slots that can touch a line of current_band_, in order of their numbers
   std::vector<std::uint32_t> merged_;  // the next active_, in the making
   std::uint32_t current_band_ = kNone;
-  std::vector<BandSpans> spans_;       // of active_, where spans_band_ is current_band_
+  BandLines band_lines_;               // of active_, where spans_band_ is current_band_
+  std::vector<frame::CoveredSpan> spans_;
   std::uint32_t spans_band_ = kNone;
-  bool spans_careful_ = false;         // active_ holds a careful slot
-  std::uint32_t spans_doubtful_ = 0;   // bits of lines of the band
+  bool spans_careful_ = false;  // active_ holds a careful slot: lines are found one by one
 
   // Of the line being evaluated. winner_ is zero between lines.
   Interval touched_;
   std::vector<std::uint32_t> winner_;  // slot + 1 of this board's nearest so far, or 0; one column more than the screen
   std::array<std::vector<std::uint32_t>, 3> normal_;  // words of the winners before normalisation
-  std::vector<std::uint64_t> seen_;                   // a bit a column
+  std::vector<std::uint64_t> seen_;                   // a bit a column, for each line of a band
+  frame::CoveredLine covered_;
+  std::vector<frame::CoveredSpan> careful_spans_;
   BoardCounters counters_;
 };
 

@@ -60,8 +60,7 @@ void ObjectBoardModule::synchronise(stream::SyncPayload& payload, sc_core::sc_ti
   payload_.frame = payload.frame;
   payload_.line = payload.line;
   if (board_.covers_in_spans()) {
-    board_.cover_line(static_cast<std::uint32_t>(payload.line), covered_);
-    payload_.covered = &covered_;
+    payload_.covered = &board_.cover_line(static_cast<std::uint32_t>(payload.line));
   } else {
     payload_.fragments = pool_.acquire();
     board_.evaluate_line(static_cast<std::uint32_t>(payload.line), *payload_.fragments);

@@ -44,7 +44,6 @@ class ObjectBoardModule : public sc_core::sc_module {
   sc_core::sc_time first_pixel_;
   stream::Link& link_;
   stream::LinePool pool_;
-  frame::CoveredLine covered_;
   stream::FragmentPayload payload_;
   std::uint64_t words_loaded_ = 0;
   std::uint64_t lines_sent_ = 0;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "modules/object_processor/interval.h"
 #include "src/base/vector_variant.h"
 #include "src/frame/covered_line.h"
 
@@ -21,36 +22,29 @@ struct alignas(64) Borders {
   double offset[4];
 };
 
-// Spans of a processor on the lines of a band; begin = end where it covers nothing.
-struct BandSpans {
-  std::uint16_t begin[kBandLines];
-  std::uint16_t end[kBandLines];
-  std::uint32_t slot;
-  std::uint32_t doubtful;  // bit i: on line i depth may reach the word that says "nothing"
-};
-
 struct BandRequest {
-  std::uint32_t slot = 0;
-  std::int32_t begin = 0;  // lines that the processor can touch
-  std::int32_t end = 0;
+  const std::uint32_t* slots = nullptr;  // in the order of their numbers
+  std::size_t count = 0;
+  // By slot:
+  const Borders* borders = nullptr;
+  const Interval* lines = nullptr;  // that it can touch
+  const frame::FragmentSource* sources = nullptr;
   std::uint32_t first_line = 0;  // of the band
   std::uint32_t columns = 0;
   std::uint32_t word_mask = 0;
+  std::uint64_t* seen = nullptr;  // room for a bit a column and line
+  std::size_t seen_words = 0;     // of a line
 };
 
-struct LineRequest {
-  const BandSpans* spans = nullptr;
+struct BandLine {
+  frame::CoveredSpan* spans = nullptr;  // room for one a slot
   std::size_t count = 0;
-  std::uint32_t line_in_band = 0;
-  const frame::FragmentSource* sources = nullptr;  // by slot
-  frame::CoveredSpan* out = nullptr;               // at least `count`
-  std::uint64_t* seen = nullptr;                   // room for a bit a column
-  std::size_t seen_words = 0;
-};
-struct LineTotals {
-  std::size_t spans = 0;
   std::uint64_t fragments = 0;    // pixels of the spans
   std::uint64_t seen_pixels = 0;  // of their union
+};
+struct BandLines {
+  BandLine line[kBandLines];
+  std::uint32_t doubtful = 0;  // bit i: on line i a depth may reach the word that says "nothing"; its counts mean nothing
 };
 
 // Where depth and mark share 32 bits, the nearest is the least of such keys: depth above, the mark below, so that equal
@@ -91,10 +85,8 @@ struct PrenormaliseRequest {
 };
 
 struct SpanKernels {
-  // Spans of a processor whose edges cannot wrap, on the lines of a band.
-  void (*band)(const Borders& borders, const frame::FragmentSource& source, const BandRequest& request, BandSpans& out);
-  // The spans of a line of a band on which no depth is doubtful.
-  LineTotals (*line)(const LineRequest& request);
+  // Spans of processors whose edges cannot wrap, on the lines of a band.
+  void (*band)(const BandRequest& request, BandLines& out);
   // `count` words, and 16 to spare.
   void (*fill)(std::uint32_t* words, std::size_t count, std::uint32_t value);
   // The depth comparator along spans, in order: strictly nearer wins.

@@ -19,60 +19,85 @@ using frame::WordPlane;
 inline __m512i all(std::uint32_t word) { return _mm512_set1_epi32(static_cast<int>(word)); }
 inline __m512i from_0_to_15() { return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
 
-void band(const Borders& borders, const FragmentSource& source, const BandRequest& request, BandSpans& out) {
-  const __m256i numbers = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(request.first_line)),
-                                           _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-  const __m512d line = _mm512_cvtepi32_pd(numbers);
-  const auto border = [&](int i) {
-    return _mm512_add_pd(_mm512_mul_pd(_mm512_set1_pd(borders.slope[i]), line), _mm512_set1_pd(borders.offset[i]));
-  };
-  const auto columns = static_cast<double>(request.columns);
-  const __m512d left =
-      _mm512_min_pd(_mm512_max_pd(_mm512_max_pd(border(0), border(1)), _mm512_setzero_pd()), _mm512_set1_pd(columns));
-  const __m512d right = _mm512_max_pd(_mm512_min_pd(_mm512_min_pd(border(2), border(3)), _mm512_set1_pd(columns - 0.5)),
-                                      _mm512_set1_pd(-1.0));
-  const __m256i begin = _mm512_cvt_roundpd_epi32(left, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
-  const __m256i end = _mm256_add_epi32(_mm512_cvt_roundpd_epi32(right, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC),
-                                       _mm256_set1_epi32(1));
-  const __mmask8 covers = _mm256_cmplt_epi32_mask(begin, end) &
-                          _mm256_cmpge_epi32_mask(numbers, _mm256_set1_epi32(request.begin)) &
-                          _mm256_cmplt_epi32_mask(numbers, _mm256_set1_epi32(request.end));
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out.begin), _mm256_cvtepi32_epi16(_mm256_maskz_mov_epi32(covers, begin)));
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out.end), _mm256_cvtepi32_epi16(_mm256_maskz_mov_epi32(covers, end)));
-  out.slot = request.slot;
+// The slope of a depth word, as the step of its value from pixel to pixel.
+inline double step_of(const WordPlane& depth, std::uint32_t word_mask) {
+  const std::uint32_t sign = word_mask ^ (word_mask >> 1);
+  return static_cast<double>(depth.a & word_mask) -
+         ((depth.a & sign) != 0 ? static_cast<double>(word_mask) + 1.0 : 0.0);
+}
 
+// What does not change from slot to slot.
+struct BandVectors {
+  explicit BandVectors(const BandRequest& request)
+      : numbers(_mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(request.first_line)),
+                                 _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7))),
+        line(_mm512_cvtepi32_pd(numbers)),
+        columns(_mm512_set1_pd(static_cast<double>(request.columns))),
+        last(_mm512_set1_pd(static_cast<double>(request.columns) - 0.5)),
+        nothing(_mm512_set1_pd(static_cast<double>(request.word_mask))),
+        mask(_mm256_set1_epi32(static_cast<int>(request.word_mask))) {}
+  __m256i numbers;
+  __m512d line, columns, last, nothing;
+  __m256i mask;
+};
+
+struct Eight {
+  __m256i begin, end;  // both 0 where nothing is covered
+  __mmask8 covers;
+  __mmask8 doubtful;
+};
+
+inline Eight eight_spans(const Borders& borders, const Interval& lines, const WordPlane& depth,
+                         std::uint32_t word_mask, const BandVectors& v) {
+  const auto border = [&](int i) {
+    return _mm512_add_pd(_mm512_mul_pd(_mm512_set1_pd(borders.slope[i]), v.line), _mm512_set1_pd(borders.offset[i]));
+  };
+  const __m512d left =
+      _mm512_min_pd(_mm512_max_pd(_mm512_max_pd(border(0), border(1)), _mm512_setzero_pd()), v.columns);
+  const __m512d right =
+      _mm512_max_pd(_mm512_min_pd(_mm512_min_pd(border(2), border(3)), v.last), _mm512_set1_pd(-1.0));
+  const __m256i one = _mm256_set1_epi32(1);
+  const __m256i begin = _mm512_cvt_roundpd_epi32(left, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
+  const __m256i end =
+      _mm256_add_epi32(_mm512_cvt_roundpd_epi32(right, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC), one);
+  const __mmask8 covers = _mm256_cmplt_epi32_mask(begin, end) &
+                          _mm256_cmpge_epi32_mask(v.numbers, _mm256_set1_epi32(lines.begin)) &
+                          _mm256_cmplt_epi32_mask(v.numbers, _mm256_set1_epi32(lines.end));
   // Depth at both ends, as it runs without a wrap: between 0 and all ones, ends not included, none can be reached.
-  const WordPlane& depth = source.depth;
-  const __m256i mask = _mm256_set1_epi32(static_cast<int>(request.word_mask));
+  const __m256i along = _mm256_mullo_epi32(_mm256_set1_epi32(static_cast<int>(depth.a)), begin);
+  const __m256i down =
+      _mm256_mullo_epi32(_mm256_set1_epi32(static_cast<int>(depth.b)), _mm256_add_epi32(v.numbers, one));
   const __m256i first = _mm256_and_si256(
-      _mm256_add_epi32(_mm256_add_epi32(_mm256_mullo_epi32(_mm256_set1_epi32(static_cast<int>(depth.a)), begin),
-                                        _mm256_mullo_epi32(_mm256_set1_epi32(static_cast<int>(depth.b)),
-                                                           _mm256_add_epi32(numbers, _mm256_set1_epi32(1)))),
-                       _mm256_set1_epi32(static_cast<int>(depth.c))),
-      mask);
-  const std::uint32_t sign = request.word_mask ^ (request.word_mask >> 1);
-  const double step = static_cast<double>(depth.a & request.word_mask) -
-                      ((depth.a & sign) != 0 ? static_cast<double>(request.word_mask) + 1.0 : 0.0);
+      _mm256_add_epi32(_mm256_add_epi32(along, down), _mm256_set1_epi32(static_cast<int>(depth.c))), v.mask);
   const __m512d start = _mm512_cvtepu32_pd(first);
-  const __m512d steps = _mm512_cvtepi32_pd(_mm256_sub_epi32(_mm256_sub_epi32(end, begin), _mm256_set1_epi32(1)));
-  const __m512d last = _mm512_add_pd(start, _mm512_mul_pd(_mm512_set1_pd(step), steps));
-  const __m512d nothing = _mm512_set1_pd(static_cast<double>(request.word_mask));
+  const __m512d steps = _mm512_cvtepi32_pd(_mm256_sub_epi32(_mm256_sub_epi32(end, begin), one));
+  const __m512d last = _mm512_add_pd(start, _mm512_mul_pd(_mm512_set1_pd(step_of(depth, word_mask)), steps));
   const __mmask8 safe = _mm512_cmp_pd_mask(last, _mm512_setzero_pd(), _CMP_GE_OQ) &
-                        _mm512_cmp_pd_mask(last, nothing, _CMP_LT_OQ) & _mm512_cmp_pd_mask(start, nothing, _CMP_LT_OQ);
-  out.doubtful = covers & static_cast<std::uint32_t>(~safe & 0xFFU);
+                        _mm512_cmp_pd_mask(last, v.nothing, _CMP_LT_OQ) &
+                        _mm512_cmp_pd_mask(start, v.nothing, _CMP_LT_OQ);
+  return {_mm256_maskz_mov_epi32(covers, begin), _mm256_maskz_mov_epi32(covers, end), covers,
+          static_cast<__mmask8>(covers & ~safe)};
 }
 
 #else
 
-void band(const Borders& borders, const FragmentSource& source, const BandRequest& request, BandSpans& out) {
+struct Eight {
+  std::uint32_t begin[kBandLines], end[kBandLines];
+  std::uint32_t doubtful;
+};
+
+inline double step_of(const WordPlane& depth, std::uint32_t word_mask) {
+  const std::uint32_t sign = word_mask ^ (word_mask >> 1);
+  return static_cast<double>(depth.a & word_mask) -
+         ((depth.a & sign) != 0 ? static_cast<double>(word_mask) + 1.0 : 0.0);
+}
+
+inline Eight eight_spans(const Borders& borders, const Interval& lines, const WordPlane& depth,
+                         const BandRequest& request) {
   const auto columns = static_cast<double>(request.columns);
-  const std::uint32_t sign = request.word_mask ^ (request.word_mask >> 1);
   const auto nothing = static_cast<double>(request.word_mask);
-  const WordPlane& depth = source.depth;
-  const double step =
-      static_cast<double>(depth.a & request.word_mask) - ((depth.a & sign) != 0 ? nothing + 1.0 : 0.0);
-  out.slot = request.slot;
-  out.doubtful = 0;
+  const double step = step_of(depth, request.word_mask);
+  Eight out{};
   for (std::uint32_t i = 0; i < kBandLines; ++i) {
     const std::uint32_t number = request.first_line + i;
     const auto line = static_cast<double>(number);
@@ -88,66 +113,130 @@ void band(const Borders& borders, const FragmentSource& source, const BandReques
     auto begin = static_cast<std::uint32_t>(left);
     begin += static_cast<double>(begin) < left ? 1 : 0;
     const auto end = static_cast<std::uint32_t>(right + 1.0);
-    const bool covers = begin < end && static_cast<std::int32_t>(number) >= request.begin &&
-                        static_cast<std::int32_t>(number) < request.end;
-    out.begin[i] = static_cast<std::uint16_t>(covers ? begin : 0);
-    out.end[i] = static_cast<std::uint16_t>(covers ? end : 0);
+    const bool covers = begin < end && static_cast<std::int32_t>(number) >= lines.begin &&
+                        static_cast<std::int32_t>(number) < lines.end;
     if (!covers) continue;
+    out.begin[i] = begin;
+    out.end[i] = end;
     const auto start = static_cast<double>((depth.a * begin + depth.b * (number + 1) + depth.c) & request.word_mask);
     const double last = start + step * static_cast<double>(end - begin - 1);
     if (!(last >= 0.0 && last < nothing && start < nothing)) out.doubtful |= 1U << i;
   }
+  return out;
 }
 
 #endif
 
-// Bits `begin` to 63 of a word of bits that starts at column `first`.
+// Bits of a word that starts at column `first`, from `column` on.
 inline std::uint64_t bits_from(std::uint32_t column, std::uint32_t first) {
   if (column <= first) return ~std::uint64_t{0};
   return column - first >= 64 ? 0 : ~std::uint64_t{0} << (column - first);
 }
 
-LineTotals line(const LineRequest& request) {
-  LineTotals totals;
-  const std::uint32_t k = request.line_in_band;
 #if defined(__AVX512BW__)
-  constexpr std::size_t kWordsInRegister = 8;
-  if (request.seen_words <= kWordsInRegister) {
+
+// The columns that a line covers, where they fit a register.
+class SeenInRegister {
+ public:
+  void add(std::uint32_t begin, std::uint32_t end) {
+    seen_ = _mm512_or_si512(seen_, _mm512_andnot_si512(from(end), from(begin)));
+  }
+  std::uint64_t pixels() const {
+    return static_cast<std::uint64_t>(_mm512_reduce_add_epi64(_mm512_popcnt_epi64(seen_)));
+  }
+
+ private:
+  static __m512i from(std::uint32_t column) {
     const __m512i firsts = _mm512_setr_epi64(0, 64, 128, 192, 256, 320, 384, 448);
-    const __m512i ones = _mm512_set1_epi64(-1);
-    const auto from = [&](std::uint32_t column) {
-      const __m512i distance = _mm512_max_epi64(
-          _mm512_sub_epi64(_mm512_set1_epi64(static_cast<long long>(column)), firsts), _mm512_setzero_si512());
-      return _mm512_sllv_epi64(ones, distance);
-    };
-    __m512i seen = _mm512_setzero_si512();
-    for (std::size_t i = 0; i < request.count; ++i) {
-      const BandSpans& spans = request.spans[i];
-      const std::uint32_t begin = spans.begin[k];
-      const std::uint32_t end = spans.end[k];
-      request.out[totals.spans] = {begin, end, request.sources + spans.slot};
-      totals.spans += begin < end ? 1 : 0;
-      totals.fragments += end - begin;
-      seen = _mm512_or_si512(seen, _mm512_andnot_si512(from(end), from(begin)));
+    const __m512i distance = _mm512_sub_epi64(_mm512_set1_epi64(static_cast<long long>(column)), firsts);
+    return _mm512_sllv_epi64(_mm512_set1_epi64(-1), _mm512_max_epi64(distance, _mm512_setzero_si512()));
+  }
+  __m512i seen_ = _mm512_setzero_si512();
+};
+constexpr std::size_t kWordsInRegister = 8;
+
+void band_in_registers(const BandRequest& request, BandLines& out) {
+  const BandVectors vectors(request);
+  SeenInRegister seen[kBandLines];
+  frame::CoveredSpan* next[kBandLines];
+  for (std::uint32_t k = 0; k < kBandLines; ++k) next[k] = out.line[k].spans;
+  __m256i fragments = _mm256_setzero_si256();
+  std::uint32_t doubtful = 0;
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const std::uint32_t slot = request.slots[i];
+    const FragmentSource* source = request.sources + slot;
+    const Eight eight =
+        eight_spans(request.borders[slot], request.lines[slot], source->depth, request.word_mask, vectors);
+    doubtful |= eight.doubtful;
+    fragments = _mm256_add_epi32(fragments, _mm256_sub_epi32(eight.end, eight.begin));
+    alignas(32) std::uint32_t begin[kBandLines], end[kBandLines];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(begin), eight.begin);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(end), eight.end);
+    for (std::uint32_t k = 0; k < kBandLines; ++k) {
+      *next[k] = {begin[k], end[k], source};
+      next[k] += eight.covers >> k & 1U;
+      seen[k].add(begin[k], end[k]);
     }
-    totals.seen_pixels = static_cast<std::uint64_t>(_mm512_reduce_add_epi64(_mm512_popcnt_epi64(seen)));
-    return totals;
+  }
+  alignas(32) std::uint32_t pixels[kBandLines];
+  _mm256_store_si256(reinterpret_cast<__m256i*>(pixels), fragments);
+  for (std::uint32_t k = 0; k < kBandLines; ++k) {
+    out.line[k].count = static_cast<std::size_t>(next[k] - out.line[k].spans);
+    out.line[k].fragments = pixels[k];
+    out.line[k].seen_pixels = seen[k].pixels();
+  }
+  out.doubtful = doubtful;
+}
+
+#endif
+
+void band_in_memory(const BandRequest& request, BandLines& out) {
+#if defined(__AVX512BW__)
+  const BandVectors vectors(request);
+#endif
+  const std::size_t words = request.seen_words;
+  for (std::size_t w = 0; w < kBandLines * words; ++w) request.seen[w] = 0;
+  for (BandLine& line : out.line) line.count = line.fragments = line.seen_pixels = 0;
+  out.doubtful = 0;
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const std::uint32_t slot = request.slots[i];
+    const FragmentSource* source = request.sources + slot;
+#if defined(__AVX512BW__)
+    const Eight eight =
+        eight_spans(request.borders[slot], request.lines[slot], source->depth, request.word_mask, vectors);
+    alignas(32) std::uint32_t begins[kBandLines], ends[kBandLines];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(begins), eight.begin);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(ends), eight.end);
+#else
+    const Eight eight = eight_spans(request.borders[slot], request.lines[slot], source->depth, request);
+    const std::uint32_t(&begins)[kBandLines] = eight.begin;
+    const std::uint32_t(&ends)[kBandLines] = eight.end;
+#endif
+    out.doubtful |= eight.doubtful;
+    for (std::uint32_t k = 0; k < kBandLines; ++k) {
+      const std::uint32_t begin = begins[k];
+      const std::uint32_t end = ends[k];
+      if (begin >= end) continue;
+      BandLine& line = out.line[k];
+      line.spans[line.count++] = {begin, end, source};
+      line.fragments += end - begin;
+      for (std::uint32_t w = begin / 64; w <= (end - 1) / 64; ++w)
+        request.seen[k * words + w] |= bits_from(begin, 64 * w) & ~bits_from(end, 64 * w);
+    }
+  }
+  for (std::uint32_t k = 0; k < kBandLines; ++k)
+    for (std::size_t w = 0; w < words; ++w)
+      out.line[k].seen_pixels += static_cast<std::uint64_t>(__builtin_popcountll(request.seen[k * words + w]));
+}
+
+void band(const BandRequest& request, BandLines& out) {
+#if defined(__AVX512BW__)
+  if (request.seen_words <= kWordsInRegister) {
+    band_in_registers(request, out);
+    return;
   }
 #endif
-  for (std::size_t w = 0; w < request.seen_words; ++w) request.seen[w] = 0;
-  for (std::size_t i = 0; i < request.count; ++i) {
-    const BandSpans& spans = request.spans[i];
-    const std::uint32_t begin = spans.begin[k];
-    const std::uint32_t end = spans.end[k];
-    if (begin >= end) continue;
-    request.out[totals.spans++] = {begin, end, request.sources + spans.slot};
-    totals.fragments += end - begin;
-    for (std::uint32_t w = begin / 64; w <= (end - 1) / 64; ++w)
-      request.seen[w] |= bits_from(begin, 64 * w) & ~bits_from(end, 64 * w);
-  }
-  for (std::size_t w = 0; w < request.seen_words; ++w)
-    totals.seen_pixels += static_cast<std::uint64_t>(__builtin_popcountll(request.seen[w]));
-  return totals;
+  band_in_memory(request, out);
 }
 
 void fill_words(std::uint32_t* words, std::size_t count, std::uint32_t value) {
@@ -313,14 +402,16 @@ inline void Planes::fill(const FragmentSource* source, std::uint32_t begin, std:
     words[i] = _mm512_add_epi32(all(plane.b * line + plane.c), _mm512_mullo_epi32(all(plane.a), ramp));
     step[i] = all(16 * plane.a);
   }
-  for (std::uint32_t x = begin; x < end; x += 16) {
+  std::uint32_t x = begin;
+  do {
     _mm512_storeu_si512(object + x, objects);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(material + x), materials);
     for (int i = 0; i < 3; ++i) {
       _mm512_storeu_si512(normal[i] + x, words[i]);
       words[i] = _mm512_add_epi32(words[i], step[i]);
     }
-  }
+    x += 16;
+  } while (x < end);
 #else
   const std::uint32_t number = source != nullptr ? source->object : 0;
   std::uint32_t* __restrict objects = object;
@@ -450,6 +541,6 @@ void prenormalise(const PrenormaliseRequest& request) {
 }  // namespace
 
 extern const SpanKernels RASTERTLM_KERNELS;
-const SpanKernels RASTERTLM_KERNELS{band, line, fill_words, draw, resolve, prenormalise};
+const SpanKernels RASTERTLM_KERNELS{band, fill_words, draw, resolve, prenormalise};
 
 }  // namespace rastertlm::object_processor

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace rastertlm::frame {
 
@@ -30,9 +29,9 @@ struct CoveredSpan {
   const FragmentSource* source = nullptr;
 };
 
-// Spans in the order of processor numbers. Valid until the board's words change.
+// Spans in the order of processor numbers; they are the board's.
 struct CoveredLine {
-  std::vector<CoveredSpan> spans;  // the first `count` of them
+  const CoveredSpan* spans = nullptr;
   std::size_t count = 0;
   std::uint64_t seen_pixels = 0;  // columns where an object is seen
 };
