@@ -98,11 +98,9 @@ void Computation::transform(Triangle& triangle) {
   triangle.needs_guard = false;
   for (std::size_t i = 0; i < 3 && !triangle.needs_guard; ++i) {
     const std::uint32_t corner = triangle.corner[i];
-    const auto on_screen =
-        corner_on_screen<double>(mesh.positions[corner], mesh.normals[corner], object_to_clip, normal_to_eye,
-                                 format_.grids.on_screen, format_.viewport);
-    triangle.needs_guard = on_screen.needs_guard;
-    triangle.screen[i] = on_screen.screen;
+    triangle.needs_guard = !on_screen(
+        set_up::transform_vertex<double>(mesh.positions[corner], mesh.normals[corner], object_to_clip, normal_to_eye),
+        format_.grids.on_screen, format_.viewport, triangle.screen[i]);
   }
   if (!cut_.empty()) cut_.erase(static_cast<std::uint32_t>(&triangle - triangles_.data()));
   if (triangle.needs_guard)
@@ -117,18 +115,13 @@ void Computation::transform_counted(Triangle& triangle) {
   const glm::dmat3& normal_to_eye = work_->pose.normal_to_eye[triangle.mesh];
   const glm::dmat4& object_to_clip = object_to_clip_[triangle.mesh];
   geometry::ClipTriangle<Number> corners;
-  bool needs_guard = false;
+  geometry::ScreenVertex<Number> screen{};
+  bool inside = true;
   for (std::size_t i = 0; i < 3; ++i) {
-    const glm::dvec3& position = mesh.positions[triangle.corner[i]];
-    const glm::dvec3& normal = mesh.normals[triangle.corner[i]];
-    if (needs_guard) {  // known already: the others are only transformed
-      corners[i] = set_up::transform_vertex<Number>(position, normal, object_to_clip, normal_to_eye);
-      continue;
-    }
-    const auto on_screen = corner_on_screen<Number>(position, normal, object_to_clip, normal_to_eye,
-                                                    format_.grids.on_screen, format_.viewport);
-    corners[i] = on_screen.clip;
-    needs_guard = on_screen.needs_guard;
+    corners[i] = set_up::transform_vertex<Number>(mesh.positions[triangle.corner[i]], mesh.normals[triangle.corner[i]],
+                                                  object_to_clip, normal_to_eye);
+    // Once one needs the band, the others are only transformed.
+    inside = inside && on_screen(corners[i], format_.grids.on_screen, format_.viewport, screen);
   }
   cut(triangle, corners);
 }

@@ -11,23 +11,13 @@
 
 namespace rastertlm::host {
 
+// False where the corner in clip space needs the guard band; otherwise `screen` is where it stands.
 template <class T>
-struct CornerOnScreen {
-  geometry::ClipVertex<T> clip{};
-  geometry::ScreenVertex<T> screen{};  // where it needs no guard band
-  bool needs_guard = true;
-};
-
-template <class T>
-CornerOnScreen<T> corner_on_screen(const glm::dvec3& position, const glm::dvec3& normal,
-                                   const glm::dmat4& object_to_clip, const glm::dmat3& normal_to_eye,
-                                   const geometry::SnapGrid& on_screen, const geometry::Viewport& viewport) {
-  CornerOnScreen<T> corner;
-  corner.clip = set_up::transform_vertex<T>(position, normal, object_to_clip, normal_to_eye);
-  if (!geometry::within_depth(corner.clip)) return corner;
-  corner.screen = geometry::to_screen(corner.clip, viewport);
-  corner.needs_guard = !geometry::within_samples(corner.screen, on_screen, viewport);
-  return corner;
+bool on_screen(const geometry::ClipVertex<T>& clip, const geometry::SnapGrid& grid,
+               const geometry::Viewport& viewport, geometry::ScreenVertex<T>& screen) {
+  if (!geometry::within_depth(clip)) return false;
+  screen = geometry::to_screen(clip, viewport);
+  return geometry::within_samples(screen, grid, viewport);
 }
 
 }  // namespace rastertlm::host

@@ -127,39 +127,35 @@ inline Eight eight_spans(const Borders& borders, const Interval& lines, const Wo
 
 #endif
 
-// Bits of a word that starts at column `first`, from `column` on.
-inline std::uint64_t bits_from(std::uint32_t column, std::uint32_t first) {
-  if (column <= first) return ~std::uint64_t{0};
-  return column - first >= 64 ? 0 : ~std::uint64_t{0} << (column - first);
-}
-
 #if defined(__AVX512BW__)
 
-// The columns that a line covers, where they fit a register.
-class SeenInRegister {
- public:
-  void add(std::uint32_t begin, std::uint32_t end) {
-    seen_ = _mm512_or_si512(seen_, _mm512_andnot_si512(from(end), from(begin)));
-  }
-  std::uint64_t pixels() const {
-    return static_cast<std::uint64_t>(_mm512_reduce_add_epi64(_mm512_popcnt_epi64(seen_)));
-  }
+inline __m512i lanes_64(__m256i words) { return _mm512_cvtepu32_epi64(words); }
 
- private:
-  static __m512i from(std::uint32_t column) {
-    const __m512i firsts = _mm512_setr_epi64(0, 64, 128, 192, 256, 320, 384, 448);
-    const __m512i distance = _mm512_sub_epi64(_mm512_set1_epi64(static_cast<long long>(column)), firsts);
-    return _mm512_sllv_epi64(_mm512_set1_epi64(-1), _mm512_max_epi64(distance, _mm512_setzero_si512()));
-  }
-  __m512i seen_ = _mm512_setzero_si512();
-};
-constexpr std::size_t kWordsInRegister = 8;
+// Bits of the columns from each lane's on, of a word that starts at column `first`.
+inline __m512i bits_from(__m512i columns, std::size_t first) {
+  const __m512i distance = _mm512_sub_epi64(columns, _mm512_set1_epi64(static_cast<long long>(first)));
+  return _mm512_sllv_epi64(_mm512_set1_epi64(-1), _mm512_max_epi64(distance, _mm512_setzero_si512()));
+}
 
-void band_in_registers(const BandRequest& request, BandLines& out) {
+// A word of 64 columns for each line of the band together.
+inline void mark_seen(const Eight& eight, __m512i begin, __m512i end, std::uint64_t* seen) {
+  const auto first = static_cast<std::size_t>(
+      _mm512_mask_reduce_min_epi32(eight.covers, _mm512_castsi256_si512(eight.begin)));
+  const auto last = static_cast<std::size_t>(
+      _mm512_mask_reduce_max_epi32(eight.covers, _mm512_castsi256_si512(eight.end)));
+  for (std::size_t word = first / 64; 64 * word < last; ++word) {
+    std::uint64_t* lines = seen + kBandLines * word;
+    const __m512i bits = _mm512_andnot_si512(bits_from(end, 64 * word), bits_from(begin, 64 * word));
+    _mm512_storeu_si512(lines, _mm512_or_si512(_mm512_loadu_si512(lines), bits));
+  }
+}
+
+void band(const BandRequest& request, BandLines& out) {
   const BandVectors vectors(request);
-  SeenInRegister seen[kBandLines];
   frame::CoveredSpan* next[kBandLines];
   for (std::uint32_t k = 0; k < kBandLines; ++k) next[k] = out.line[k].spans;
+  for (std::size_t w = 0; w < request.seen_words; ++w)
+    _mm512_storeu_si512(request.seen + kBandLines * w, _mm512_setzero_si512());
   __m256i fragments = _mm256_setzero_si256();
   std::uint32_t doubtful = 0;
   for (std::size_t i = 0; i < request.count; ++i) {
@@ -167,77 +163,70 @@ void band_in_registers(const BandRequest& request, BandLines& out) {
     const FragmentSource* source = request.sources + slot;
     const Eight eight =
         eight_spans(request.borders[slot], request.lines[slot], source->depth, request.word_mask, vectors);
+    if (eight.covers == 0) continue;
     doubtful |= eight.doubtful;
     fragments = _mm256_add_epi32(fragments, _mm256_sub_epi32(eight.end, eight.begin));
-    alignas(32) std::uint32_t begin[kBandLines], end[kBandLines];
-    _mm256_store_si256(reinterpret_cast<__m256i*>(begin), eight.begin);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(end), eight.end);
+    const __m512i begin = lanes_64(eight.begin);
+    const __m512i end = lanes_64(eight.end);
+    alignas(64) std::uint64_t columns[kBandLines];  // as a span begins: begin, then end
+    _mm512_store_si512(columns, _mm512_or_si512(begin, _mm512_slli_epi64(end, 32)));
     for (std::uint32_t k = 0; k < kBandLines; ++k) {
-      *next[k] = {begin[k], end[k], source};
+      __builtin_memcpy(static_cast<void*>(next[k]), &columns[k], sizeof(columns[k]));
+      next[k]->source = source;
       next[k] += eight.covers >> k & 1U;
-      seen[k].add(begin[k], end[k]);
     }
+    mark_seen(eight, begin, end, request.seen);
   }
+  __m512i seen = _mm512_setzero_si512();
+  for (std::size_t w = 0; w < request.seen_words; ++w)
+    seen = _mm512_add_epi64(seen, _mm512_popcnt_epi64(_mm512_loadu_si512(request.seen + kBandLines * w)));
+  alignas(64) std::uint64_t seen_pixels[kBandLines];
   alignas(32) std::uint32_t pixels[kBandLines];
+  _mm512_store_si512(seen_pixels, seen);
   _mm256_store_si256(reinterpret_cast<__m256i*>(pixels), fragments);
   for (std::uint32_t k = 0; k < kBandLines; ++k) {
     out.line[k].count = static_cast<std::size_t>(next[k] - out.line[k].spans);
     out.line[k].fragments = pixels[k];
-    out.line[k].seen_pixels = seen[k].pixels();
+    out.line[k].seen_pixels = seen_pixels[k];
   }
   out.doubtful = doubtful;
 }
 
-#endif
+#else
 
-void band_in_memory(const BandRequest& request, BandLines& out) {
-#if defined(__AVX512BW__)
-  const BandVectors vectors(request);
-#endif
-  const std::size_t words = request.seen_words;
-  for (std::size_t w = 0; w < kBandLines * words; ++w) request.seen[w] = 0;
+// Bits of a word that starts at column `first`, from `column` on.
+inline std::uint64_t bits_from(std::uint32_t column, std::uint32_t first) {
+  if (column <= first) return ~std::uint64_t{0};
+  return column - first >= 64 ? 0 : ~std::uint64_t{0} << (column - first);
+}
+
+void band(const BandRequest& request, BandLines& out) {
+  for (std::size_t w = 0; w < kBandLines * request.seen_words; ++w) request.seen[w] = 0;
   for (BandLine& line : out.line) line.count = line.fragments = line.seen_pixels = 0;
   out.doubtful = 0;
   for (std::size_t i = 0; i < request.count; ++i) {
     const std::uint32_t slot = request.slots[i];
     const FragmentSource* source = request.sources + slot;
-#if defined(__AVX512BW__)
-    const Eight eight =
-        eight_spans(request.borders[slot], request.lines[slot], source->depth, request.word_mask, vectors);
-    alignas(32) std::uint32_t begins[kBandLines], ends[kBandLines];
-    _mm256_store_si256(reinterpret_cast<__m256i*>(begins), eight.begin);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(ends), eight.end);
-#else
     const Eight eight = eight_spans(request.borders[slot], request.lines[slot], source->depth, request);
-    const std::uint32_t(&begins)[kBandLines] = eight.begin;
-    const std::uint32_t(&ends)[kBandLines] = eight.end;
-#endif
     out.doubtful |= eight.doubtful;
     for (std::uint32_t k = 0; k < kBandLines; ++k) {
-      const std::uint32_t begin = begins[k];
-      const std::uint32_t end = ends[k];
+      const std::uint32_t begin = eight.begin[k];
+      const std::uint32_t end = eight.end[k];
       if (begin >= end) continue;
       BandLine& line = out.line[k];
       line.spans[line.count++] = {begin, end, source};
       line.fragments += end - begin;
       for (std::uint32_t w = begin / 64; w <= (end - 1) / 64; ++w)
-        request.seen[k * words + w] |= bits_from(begin, 64 * w) & ~bits_from(end, 64 * w);
+        request.seen[kBandLines * w + k] |= bits_from(begin, 64 * w) & ~bits_from(end, 64 * w);
     }
   }
-  for (std::uint32_t k = 0; k < kBandLines; ++k)
-    for (std::size_t w = 0; w < words; ++w)
-      out.line[k].seen_pixels += static_cast<std::uint64_t>(__builtin_popcountll(request.seen[k * words + w]));
+  for (std::size_t w = 0; w < request.seen_words; ++w)
+    for (std::uint32_t k = 0; k < kBandLines; ++k)
+      out.line[k].seen_pixels +=
+          static_cast<std::uint64_t>(__builtin_popcountll(request.seen[kBandLines * w + k]));
 }
 
-void band(const BandRequest& request, BandLines& out) {
-#if defined(__AVX512BW__)
-  if (request.seen_words <= kWordsInRegister) {
-    band_in_registers(request, out);
-    return;
-  }
 #endif
-  band_in_memory(request, out);
-}
 
 void fill_words(std::uint32_t* words, std::size_t count, std::uint32_t value) {
 #if defined(__AVX512BW__)

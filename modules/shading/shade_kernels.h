@@ -46,12 +46,12 @@ struct ShadeRequest {
 
   const std::uint16_t* root = nullptr;  // the inverse root ROM, and a word to spare
   RootArithmetic roots;
-  const ShadeLight* lights = nullptr;
+  const ShadeLight* lights = nullptr;  // at least one
   std::size_t light_count = 0;
   std::uint16_t ambient[3][kKernelMaterials] = {};
   std::uint32_t last_material = 0;
   std::uint16_t background[3] = {};
-  std::uint32_t short_limit = 0;  // squares below it: the normal is short
+  std::uint32_t short_address = 0;  // ROM addresses below it: the normal is short
   unsigned magnitude_bits = 11;   // of a component; 11 at most
   unsigned root_shift = 10;       // squares to ROM address
   unsigned product_lift = 4;      // (2 m + 1) << lift times root, its high 16 bits: the normalised component

@@ -74,15 +74,12 @@ inline Normals normalise(const ShadeRequest& request, std::size_t x) {
     squares.high = _mm512_add_epi32(squares.high, _mm512_unpackhi_epi16(low, high));
   }
   normals.zero = _mm512_testn_epi16_mask(any, any);
-  // As 16-bit lanes again: all ones where the squares are below the limit.
-  const __m512i limit = all_32(request.short_limit);
-  const __m512i below =
-      _mm512_packs_epi32(_mm512_movm_epi32(_mm512_cmplt_epu32_mask(squares.low, limit)),
-                         _mm512_movm_epi32(_mm512_cmplt_epu32_mask(squares.high, limit)));
-  normals.is_short = _mm512_movepi16_mask(below) & ~normals.zero;
   const __m128i shift = count_of(request.root_shift);
-  const __m512i root = _mm512_packus_epi32(root_at(request, _mm512_srl_epi32(squares.low, shift)),
-                                           root_at(request, _mm512_srl_epi32(squares.high, shift)));
+  const Pair address{_mm512_srl_epi32(squares.low, shift), _mm512_srl_epi32(squares.high, shift)};
+  normals.is_short = _mm512_cmplt_epu16_mask(_mm512_packus_epi32(address.low, address.high),
+                                             all_16(static_cast<int>(request.short_address))) &
+                     ~normals.zero;
+  const __m512i root = _mm512_packus_epi32(root_at(request, address.low), root_at(request, address.high));
   const __m128i product_lift = count_of(request.product_lift);
   const __m128i entry_lift = count_of(request.entry_lift);
   for (int i = 0; i < 3; ++i) {
@@ -98,8 +95,9 @@ inline __m512i dot(const ShadeRequest& request, const ShadeLight& light, int k, 
   __m512i sum = _mm512_setzero_si512();
   for (int i = 0; i < 3; ++i) {
     const __m512i entry = _mm512_mulhi_epu16(normals.component[i], all_16(light.word[k][i]));
-    const __m512i flip = _mm512_xor_si512(normals.sign[i], all_16(light.flip[k][i]));
-    sum = _mm512_add_epi16(sum, _mm512_xor_si512(entry, flip));
+    constexpr int kExclusiveOr = 0x96;  // of three
+    sum = _mm512_add_epi16(
+        sum, _mm512_ternarylogic_epi32(entry, normals.sign[i], all_16(light.flip[k][i]), kExclusiveOr));
   }
   sum = _mm512_add_epi16(_mm512_add_epi16(sum, sum), all_16(3));
   sum = _mm512_min_epi16(_mm512_max_epi16(sum, _mm512_setzero_si512()), all_16(request.full_scale));
@@ -169,13 +167,14 @@ inline void store(std::uint8_t* rgb, const __m512i (&levels)[3], std::size_t pix
 
 inline std::uint64_t bits_of(__mmask32 mask) { return static_cast<std::uint64_t>(__builtin_popcount(mask)); }
 
-inline void shade_block(const ShadeRequest& request, std::size_t x, __mmask32 seen, __m512i material,
-                        ShadeTotals& totals) {
+inline void shade_block(const ShadeRequest& request, const ShadeLight& first_light, std::size_t x, __mmask32 seen,
+                        __m512i material, ShadeTotals& totals) {
   const Normals normals = normalise(request, x);
   const __mmask32 lit = seen & ~normals.zero;
   __m512i sum[3];
   for (int c = 0; c < 3; ++c) sum[c] = by_material(request.ambient[c], material);
-  for (std::size_t l = 0; l < request.light_count; ++l)
+  add_light(request, first_light, normals, material, lit, sum);
+  for (std::size_t l = 1; l < request.light_count; ++l)
     add_light(request, request.lights[l], normals, material, lit, sum);
   const __m512i full = all_16(255);
   __mmask32 saturated = 0;
@@ -185,13 +184,18 @@ inline void shade_block(const ShadeRequest& request, std::size_t x, __mmask32 se
     levels[c] = _mm512_mask_min_epu16(all_16(request.background[c]), seen, sum[c], full);
   }
   totals.pixels += bits_of(seen);
-  totals.zero_normals += bits_of(normals.zero & seen);
-  totals.short_normals += bits_of(normals.is_short & seen);
-  totals.saturated_pixels += bits_of(saturated & seen);
+  if (((normals.zero | normals.is_short | saturated) & seen) != 0) {
+    totals.zero_normals += bits_of(normals.zero & seen);
+    totals.short_normals += bits_of(normals.is_short & seen);
+    totals.saturated_pixels += bits_of(saturated & seen);
+  }
   store(request.rgb + 3 * x, levels, request.count - x);
 }
 
-ShadeTotals shade(const ShadeRequest& request) {
+ShadeTotals shade(const ShadeRequest& given) {
+  // Copies that nothing points to: what is stored cannot change them, so they stay in registers.
+  const ShadeRequest request = given;
+  const ShadeLight first_light = request.lights[0];
   ShadeTotals totals;
   const __m512i background[3] = {all_16(request.background[0]), all_16(request.background[1]),
                                  all_16(request.background[2])};
@@ -212,7 +216,7 @@ ShadeTotals shade(const ShadeRequest& request) {
     const __m512i material =
         _mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(request.material + x)));
     largest = _mm512_mask_max_epu16(largest, seen, largest, material);
-    shade_block(request, x, seen, _mm512_min_epu16(material, last_material), totals);
+    shade_block(request, first_light, x, seen, _mm512_min_epu16(material, last_material), totals);
   }
   alignas(64) std::uint16_t materials[32];
   _mm512_store_si512(materials, largest);
@@ -313,7 +317,7 @@ void finish(const ShadeRequest& request, std::size_t x, std::size_t count, const
     totals.largest_material = material > totals.largest_material ? material : totals.largest_material;
     totals.pixels += 1;
     totals.zero_normals += block.any[k] == 0 ? 1 : 0;
-    totals.short_normals += block.any[k] != 0 && block.squares[k] < request.short_limit ? 1 : 0;
+    totals.short_normals += block.any[k] != 0 && block.squares[k] >> request.root_shift < request.short_address ? 1 : 0;
     totals.saturated_pixels += saturated ? 1 : 0;
   }
 }

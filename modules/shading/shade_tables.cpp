@@ -8,8 +8,8 @@
 namespace rastertlm::shading {
 namespace {
 
-constexpr unsigned kHalf = 16;     // products are the high halves of those of 16-bit words
-constexpr unsigned kRounded = 15;  // or, of words with a sign, all but the low 15 bits, rounded
+constexpr int kHalf = 16;          // products are the high halves of those of 16-bit words
+constexpr int kRounded = 15;       // or, of words with a sign, all but the low 15 bits, rounded
 constexpr unsigned kWidestMagnitude = 11;
 constexpr std::int64_t kWidestEntry = 12;  // of a dot-product table: the sum of three fits 16 bits with a sign
 constexpr std::int64_t kLevelBits = 8;
@@ -19,7 +19,7 @@ bool kernel_can(const ShadingParameters& p, unsigned magnitude_bits, unsigned pr
   const std::int64_t level_shift = p.index_bits + p.diffuse_fraction_bits + 1;
   return p.arithmetic == Arithmetic::centred && magnitude_bits <= kWidestMagnitude && p.level_bits == kLevelBits &&
          p.dot_table_output_bits <= kWidestEntry && p.materials <= static_cast<std::int64_t>(kKernelMaterials) &&
-         (p.materials << p.index_bits) <= (std::int64_t{1} << kHalf) && product_shift <= kHalf &&
+         p.normaliser_address_bits < kHalf && (p.materials << p.index_bits) <= (std::int64_t{1} << kHalf) && product_shift <= kHalf &&
          magnitude_bits + 1 <= product_shift && level_shift <= kRounded &&
          kLevelBits + p.diffuse_fraction_bits <= kRounded;
 }
@@ -71,9 +71,9 @@ std::optional<ShadeTables> ShadeTables::of(const TableBank& bank, const Normalis
   ShadeTables tables;
   ShadeRequest& c = tables.constants_;
   c.last_material = static_cast<std::uint32_t>(parameters.materials) - 1;
-  c.short_limit = normaliser.short_limit();
   c.magnitude_bits = magnitude_bits;
   c.root_shift = normaliser.address_shift();
+  c.short_address = normaliser.short_limit() >> c.root_shift;  // the limit is a multiple: addresses have 4 bits or more
   c.product_lift = kHalf - product_shift;
   c.entry_lift = kHalf - static_cast<unsigned>(parameters.dot_table_address_bits) - 1;
   c.component_limit = static_cast<std::uint16_t>((1U << parameters.dot_table_address_bits) - 1);
