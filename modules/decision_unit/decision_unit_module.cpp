@@ -30,7 +30,7 @@ DecisionUnitModule::DecisionUnitModule(const sc_core::sc_module_name& name, Deci
 void DecisionUnitModule::receive(int board, stream::FragmentPayload& payload, sc_core::sc_time& delay) {
   gather(static_cast<std::size_t>(board), payload);
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
-  if (gathered_ < lines_.size()) return;
+  if (gathered_ < covered_.size()) return;
   payload_.frame = payload.frame;
   payload_.line = payload.line;
   payload_.fragments = merged();
@@ -43,15 +43,18 @@ void DecisionUnitModule::receive(int board, stream::FragmentPayload& payload, sc
 
 void DecisionUnitModule::gather(std::size_t board, stream::FragmentPayload& payload) {
   const bool in_pixels = payload.covered == nullptr;
-  if (lines_[board] || covered_[board] != nullptr ||
-      (gathered_ > 0 && (payload.line != line_ || in_pixels != in_pixels_)))
+  const bool in_turn = gathered_ == 0 || (payload.line == line_ && in_pixels == in_pixels_ &&
+                                          (in_pixels ? !lines_[board] : covered_[board] == nullptr));
+  if (!in_turn)
     throw ModelError(name(), lines_sent_,
                      "board " + std::to_string(board) + " sent line " + std::to_string(payload.line) + " while line " +
                          std::to_string(line_) + " was being gathered");
   line_ = payload.line;
   in_pixels_ = in_pixels;
-  lines_[board] = std::move(payload.fragments);
-  covered_[board] = payload.covered;
+  if (in_pixels)
+    lines_[board] = std::move(payload.fragments);
+  else
+    covered_[board] = payload.covered;
   ++gathered_;
 }
 

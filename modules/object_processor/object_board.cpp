@@ -190,7 +190,7 @@ std::uint32_t ObjectBoard::copy() {
   if (copied > 0) rebuild_buckets();
   changes_.clear();
   current_band_ = kNone;
-  spans_band_ = kNone;
+  ready_first_ = kNone;
   return copied;
 }
 
@@ -337,55 +337,60 @@ void ObjectBoard::visit_stepped(const LineEdges& at, std::uint32_t wrapping, Int
   }
 }
 
-void ObjectBoard::find_spans() {
-  if (spans_band_ == current_band_) return;
-  spans_band_ = current_band_;
-  spans_careful_ = std::any_of(active_.begin(), active_.end(), [this](auto slot) { return careful_[slot] != 0; });
-  if (spans_careful_) return;
-  if (spans_.size() < kBandLines * (active_.size() + 1)) spans_.resize(kBandLines * (active_.size() + 1));
-  for (std::size_t k = 0; k < kBandLines; ++k) band_lines_.line[k].spans = &spans_[k * (active_.size() + 1)];
-  kernels_.band({active_.data(), active_.size(), borders_.data(), intervals_.data(), sources_.data(),
-                 current_band_ * kBandLines, columns_, format_.mask(), seen_.data(), seen_.size() / kBandLines},
-                band_lines_);
+// Finds the spans of the line's band.
+void ObjectBoard::make_ready(std::uint32_t line) {
+  select_band(line);
+  ready_first_ = current_band_ * kBandLines;
+  const std::size_t room = active_.size() + 1;
+  if (spans_.size() < kBandLines * room) spans_.resize(kBandLines * room);
+  BandLines found;
+  for (std::size_t k = 0; k < kBandLines; ++k) found.line[k].spans = &spans_[k * room];
+  const bool careful = std::any_of(active_.begin(), active_.end(), [this](auto slot) { return careful_[slot] != 0; });
+  if (!careful)
+    kernels_.band({active_.data(), active_.size(), borders_.data(), intervals_.data(), sources_.data(), ready_first_,
+                   columns_, format_.mask(), seen_.data(), seen_.size() / kBandLines},
+                  found);
+  for (std::uint32_t k = 0; k < kBandLines; ++k) {
+    const BandLine& band_line = found.line[k];
+    const std::uint32_t touched = ready_first_ + k < lines_ ? touched_by_[ready_first_ + k] : 0;
+    ready_[k] = {{band_line.spans, band_line.count, band_line.seen_pixels},
+                 band_line.fragments,
+                 touched,
+                 touched > 0 && (careful || (found.doubtful >> k & 1U) != 0)};
+  }
 }
 
 const frame::CoveredLine& ObjectBoard::cover_line(std::uint32_t line) {
-  check_line(line, columns_);
-  select_band(line);
-  covered_ = {};
-  const std::uint32_t touched = touched_by_[line];
-  if (touched == 0) return covered_;
-  ++counters_.lines_evaluated;
-  counters_.processors_visited += touched;
-  find_spans();
-  const std::uint64_t in_before = counters_.fragments_in;
-  const std::uint32_t line_in_band = line % kBandLines;
-  if (spans_careful_ || (band_lines_.doubtful >> line_in_band & 1U) != 0) {
-    cover_carefully(line);
-  } else {
-    const BandLine& found = band_lines_.line[line_in_band];
-    covered_ = {found.spans, found.count, found.seen_pixels};
-    counters_.fragments_in += found.fragments;
+  if (line - ready_first_ >= kBandLines || line >= lines_) {
+    check_line(line, columns_);
+    make_ready(line);
   }
-  counters_.fragments_kept += covered_.seen_pixels;
-  counters_.fragments_hidden += counters_.fragments_in - in_before - covered_.seen_pixels;
-  return covered_;
+  Ready& ready = ready_[line - ready_first_];
+  if (ready.careful) cover_carefully(line, ready);
+  counters_.lines_evaluated += ready.touched > 0 ? 1 : 0;
+  counters_.processors_visited += ready.touched;
+  counters_.fragments_in += ready.fragments;
+  counters_.fragments_kept += ready.covered.seen_pixels;
+  counters_.fragments_hidden += ready.fragments - ready.covered.seen_pixels;
+  return ready.covered;
 }
 
 // A line on which an edge could wrap, or a depth reach the word of nothing: span by span, as evaluate_line draws it.
-void ObjectBoard::cover_carefully(std::uint32_t line) {
+void ObjectBoard::cover_carefully(std::uint32_t line, Ready& ready) {
   std::fill(seen_.begin(), seen_.end(), 0U);
   careful_spans_.clear();
+  ready.fragments = 0;
   for (const std::uint32_t slot : active_) {
     if (!intervals_[slot].holds(static_cast<std::int32_t>(line))) continue;
     const LineEdges at = line_edges(slot, line);
     visit_spans(at, {0, static_cast<std::int32_t>(columns_)}, [&](const Interval& span) {
-      counters_.fragments_in += static_cast<std::uint64_t>(span.end - span.begin);
+      ready.fragments += static_cast<std::uint64_t>(span.end - span.begin);
       cover_span(slot, at, span);
     });
   }
-  covered_ = {careful_spans_.data(), careful_spans_.size(), 0};
-  for (const std::uint64_t word : seen_) covered_.seen_pixels += static_cast<std::uint64_t>(std::popcount(word));
+  std::uint64_t seen = 0;
+  for (const std::uint64_t word : seen_) seen += static_cast<std::uint64_t>(std::popcount(word));
+  ready.covered = {careful_spans_.data(), careful_spans_.size(), seen};
 }
 
 void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span) {

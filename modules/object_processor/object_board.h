@@ -93,6 +93,12 @@ class ObjectBoard {
     std::uint32_t depth_step;
   };
   using Edges = std::array<LinearWords, 3>;
+  struct Ready {  // a line of a band
+    frame::CoveredLine covered;
+    std::uint64_t fragments = 0;
+    std::uint32_t touched = 0;  // slots that can touch the line
+    bool careful = false;       // to be found alone
+  };
 
   Loading& writable(std::uint32_t slot, std::size_t index);
   Loading parked_slot(std::uint32_t slot) const;
@@ -101,7 +107,7 @@ class ObjectBoard {
   void rebuild_buckets();
   void check_line(std::uint32_t line, std::size_t columns) const;
   void select_band(std::uint32_t line);
-  void find_spans();
+  void make_ready(std::uint32_t line);
   void evaluate_processor(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out);
   void evaluate_late_carry(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out);
   LineEdges line_edges(std::uint32_t slot, std::uint32_t line) const;
@@ -109,13 +115,18 @@ class ObjectBoard {
   void visit_spans(const LineEdges& at, Interval span, const Draw& draw);
   template <class Draw>
   void visit_stepped(const LineEdges& at, std::uint32_t wrapping, Interval span, const Draw& draw);
-  void cover_carefully(std::uint32_t line);
+  void cover_carefully(std::uint32_t line, Ready& ready);
   void cover_span(std::uint32_t slot, const LineEdges& at, Interval span);
   void draw_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out);
   void resolve_winners(std::uint32_t line, frame::FragmentLine& out);
   void fill_run(std::uint32_t slot, std::uint32_t line, std::size_t begin, std::size_t end, frame::FragmentLine& out);
 
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  // What every line asks for, side by side. Lines of a band that were found together, from ready_first_ on.
+  BoardCounters counters_;
+  std::uint32_t ready_first_ = kNone;
+  std::array<Ready, kBandLines> ready_;
 
   ObjectProcessorParameters parameters_;
   WordFormat format_;
@@ -146,19 +157,14 @@ class ObjectBoard {
   std::vector<std::uint32_t> active_;  // slots that can touch a line of current_band_, in order of their numbers
   std::vector<std::uint32_t> merged_;  // the next active_, in the making
   std::uint32_t current_band_ = kNone;
-  BandLines band_lines_;               // of active_, where spans_band_ is current_band_
-  std::vector<frame::CoveredSpan> spans_;
-  std::uint32_t spans_band_ = kNone;
-  bool spans_careful_ = false;  // active_ holds a careful slot: lines are found one by one
+  std::vector<frame::CoveredSpan> spans_;  // of the band that is ready
 
   // Of the line being evaluated. winner_ is zero between lines.
   Interval touched_;
   std::vector<std::uint32_t> winner_;  // slot + 1 of this board's nearest so far, or 0; one column more than the screen
   std::array<std::vector<std::uint32_t>, 3> normal_;  // words of the winners before normalisation
   std::vector<std::uint64_t> seen_;                   // a bit a column, for each line of a band
-  frame::CoveredLine covered_;
   std::vector<frame::CoveredSpan> careful_spans_;
-  BoardCounters counters_;
 };
 
 }  // namespace rastertlm::object_processor
