@@ -10,6 +10,7 @@ LineComposer::LineComposer(const ObjectProcessorParameters& parameters, std::siz
                            VectorVariant variant)
     : word_bits_(static_cast<unsigned>(parameters.word_bits)),
       word_mask_(static_cast<std::uint32_t>(low_mask(word_bits_))),
+      normal_bits_(static_cast<unsigned>(parameters.normal_bits)),
       prenormaliser_(parameters, variant),
       observe_(observe),
       kernels_(&span_kernels(variant)),
@@ -31,16 +32,25 @@ std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> b
   out.end = columns;
   compare(boards, line, columns, in_keys);
   if (observe_) observe(boards, in_keys, out);
-  const std::uint64_t seen = kernels_->resolve({in_keys ? depth_.front().words : winner_.front().words,
-                                                in_keys ? kMarkMask : ~0U,
-                                                static_cast<std::uint32_t>(columns),
-                                                line,
-                                                sources_.data(),
-                                                {normal_[0].data(), normal_[1].data(), normal_[2].data()},
-                                                out.material.data(),
-                                                out.object.data()});
-  prenormaliser_.line({normal_[0].data(), normal_[1].data(), normal_[2].data()},
-                      {out.normal_x.data(), out.normal_y.data(), out.normal_z.data()}, columns, out.object.data());
+  ResolveRequest request;
+  request.winner = in_keys ? depth_.front().words : winner_.front().words;
+  request.mark_mask = in_keys ? kMarkMask : ~0U;
+  request.columns = static_cast<std::uint32_t>(columns);
+  request.line = line;
+  request.sources = sources_.data();
+  request.word_bits = word_bits_;
+  request.normal_bits = normal_bits_;
+  request.material = out.material.data();
+  request.object = out.object.data();
+  const std::array<std::uint16_t*, 3> link{out.normal_x.data(), out.normal_y.data(), out.normal_z.data()};
+  const bool normalises = word_bits_ <= kNormalisedBits;
+  for (std::size_t i = 0; i < 3; ++i) {
+    request.normal[i] = normal_[i].data();
+    request.link[i] = normalises ? link[i] : nullptr;
+  }
+  const std::uint64_t seen = kernels_->resolve(request);
+  if (!normalises)
+    prenormaliser_.line({normal_[0].data(), normal_[1].data(), normal_[2].data()}, link, columns);
   return seen;
 }
 

@@ -34,6 +34,7 @@ class LineComposer {
 
   unsigned word_bits_;
   std::uint32_t word_mask_;
+  unsigned normal_bits_;
   Prenormaliser prenormaliser_;
   bool observe_;
   const SpanKernels* kernels_;

@@ -6,8 +6,6 @@ namespace rastertlm::object_processor {
 
 namespace {
 
-constexpr unsigned kWordsOfKernel = 25;
-
 std::uint32_t magnitude(std::uint32_t word, unsigned word_bits) {
   const std::int64_t value = sign_extend(word, word_bits);
   return static_cast<std::uint32_t>(value < 0 ? ~value : value);
@@ -42,11 +40,10 @@ LinkNormal Prenormaliser::operator()(const std::array<std::uint32_t, 3>& normal)
 }
 
 void Prenormaliser::line(std::array<const std::uint32_t*, 3> normal, std::array<std::uint16_t*, 3> link,
-                         std::size_t count, const std::uint32_t* wanted) const {
-  if (word_bits_ <= kWordsOfKernel) {
+                         std::size_t count) const {
+  if (word_bits_ <= kNormalisedBits) {
     kernels_->prenormalise({{normal[0], normal[1], normal[2]},
                             {link[0], link[1], link[2]},
-                            wanted,
                             count,
                             word_bits_,
                             normal_bits_});

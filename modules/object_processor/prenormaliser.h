@@ -27,9 +27,7 @@ class Prenormaliser {
   unsigned shift_of(const std::array<std::uint32_t, 3>& normal) const;  // K
 
   // The same for `count` pixels; arrays do not overlap, and have 16 pixels to spare.
-  // `wanted`: null, or 0 at pixels whose words nobody reads.
-  void line(std::array<const std::uint32_t*, 3> normal, std::array<std::uint16_t*, 3> link, std::size_t count,
-            const std::uint32_t* wanted = nullptr) const;
+  void line(std::array<const std::uint32_t*, 3> normal, std::array<std::uint16_t*, 3> link, std::size_t count) const;
 
   unsigned largest_shift() const { return largest_shift_; }  // K is in 0..largest_shift: 12 for 24 and 12 bits
   unsigned shifters() const;                                 // fixed shifters of 1, 2, 4, ... a component: 4 for 12

@@ -70,17 +70,22 @@ struct ResolveRequest {
   std::uint32_t columns = 0;
   std::uint32_t line = 0;
   const frame::FragmentSource* const* sources = nullptr;  // by mark; 0 is nobody
-  std::uint32_t* normal[3] = {};  // words before normalisation; 16 words to spare, as for what follows
+  unsigned word_bits = 24;
+  unsigned normal_bits = 12;
+  // Written, with room for 32 pixels more. `normal` as before normalisation, where `link` is null.
+  std::uint32_t* normal[3] = {};
+  std::uint16_t* link[3] = {};
   std::uint8_t* material = nullptr;
   std::uint32_t* object = nullptr;  // 0 where nobody is seen; the other words then mean nothing
 };
 
+inline constexpr unsigned kNormalisedBits = 25;  // of the widest word that the kernels normalise
+
 struct PrenormaliseRequest {
   const std::uint32_t* normal[3] = {};  // words of word_bits; 16 to spare, as for link
   std::uint16_t* link[3] = {};
-  const std::uint32_t* wanted = nullptr;  // null, or 0 for pixels whose words nobody reads; 16 to spare
   std::size_t count = 0;
-  unsigned word_bits = 24;  // at most 25
+  unsigned word_bits = 24;  // at most kNormalisedBits
   unsigned normal_bits = 12;
 };
 
@@ -91,7 +96,7 @@ struct SpanKernels {
   void (*fill)(std::uint32_t* words, std::size_t count, std::uint32_t value);
   // The depth comparator along spans, in order: strictly nearer wins.
   void (*draw)(const DrawRequest& request);
-  // Words of the winners, by runs of one winner. Returns how many pixels have one.
+  // Words of the winners, pre-normalised. Returns how many pixels have one.
   std::uint64_t (*resolve)(const ResolveRequest& request);
   // The pre-normalisation unit.
   void (*prenormalise)(const PrenormaliseRequest& request);

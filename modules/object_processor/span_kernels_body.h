@@ -361,123 +361,95 @@ void draw(const DrawRequest& request) {
     draw_apart(request);
 }
 
-// What a run of one winner shows.
-struct Planes {
-  explicit Planes(const ResolveRequest& request)
-      : line(request.line + 1),
-        normal{request.normal[0], request.normal[1], request.normal[2]},
-        material(request.material),
-        object(request.object) {}
-  void fill(const FragmentSource* source, std::uint32_t begin, std::uint32_t end) const;
+#if defined(__AVX512BW__)
 
-  std::uint32_t line;
-  std::uint32_t* normal[3];
-  std::uint8_t* material;
-  std::uint32_t* object;
+// The pre-normalisation unit on 16 pixels.
+class Normalising {
+ public:
+  Normalising(unsigned word_bits, unsigned normal_bits)
+      : up_(_mm_cvtsi32_si128(static_cast<int>(32 - word_bits))),
+        at_least_(all((1U << (normal_bits - 1)) - 1)),
+        zeros_(all(32 - (normal_bits - 1))),
+        sign_bit_(all(1U << (normal_bits - 1))) {}
+
+  void operator()(const __m512i (&word)[3], __m256i (&link)[3]) const {
+    __m512i magnitude[3], sign[3];
+    __m512i together = at_least_;
+    for (int i = 0; i < 3; ++i) {
+      const __m512i high = _mm512_sll_epi32(word[i], up_);
+      sign[i] = _mm512_srai_epi32(high, 31);
+      magnitude[i] = _mm512_xor_si512(_mm512_sra_epi32(high, up_), sign[i]);
+      together = _mm512_or_si512(together, magnitude[i]);
+    }
+    const __m512i shift = _mm512_sub_epi32(zeros_, _mm512_lzcnt_epi32(together));
+    for (int i = 0; i < 3; ++i) {
+      link[i] = _mm512_cvtepi32_epi16(
+          _mm512_ternarylogic_epi32(_mm512_srlv_epi32(magnitude[i], shift), sign[i], sign_bit_, kOrAnd));
+    }
+  }
+
+ private:
+  static constexpr int kOrAnd = 0xF8;  // a or (b and c)
+  __m128i up_;
+  __m512i at_least_, zeros_, sign_bit_;
 };
 
-inline void Planes::fill(const FragmentSource* source, std::uint32_t begin, std::uint32_t end) const {
-#if defined(__AVX512BW__)
-  if (source == nullptr) {
-    for (std::uint32_t x = begin; x < end; x += 16) _mm512_storeu_si512(object + x, _mm512_setzero_si512());
-    return;
-  }
-  const __m512i objects = all(source->object);
-  const __m128i materials = _mm_set1_epi8(static_cast<char>(source->material));
-  const __m512i ramp = _mm512_add_epi32(from_0_to_15(), all(begin));
-  __m512i words[3], step[3];
-  for (int i = 0; i < 3; ++i) {
-    const WordPlane& plane = source->normal[i];
-    words[i] = _mm512_add_epi32(all(plane.b * line + plane.c), _mm512_mullo_epi32(all(plane.a), ramp));
-    step[i] = all(16 * plane.a);
-  }
-  std::uint32_t x = begin;
-  do {
-    _mm512_storeu_si512(object + x, objects);
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(material + x), materials);
-    for (int i = 0; i < 3; ++i) {
-      _mm512_storeu_si512(normal[i] + x, words[i]);
-      words[i] = _mm512_add_epi32(words[i], step[i]);
-    }
-    x += 16;
-  } while (x < end);
-#else
-  const std::uint32_t number = source != nullptr ? source->object : 0;
-  std::uint32_t* __restrict objects = object;
-  for (std::uint32_t x = begin; x < end; ++x) objects[x] = number;
-  if (source == nullptr) return;
-  const auto index = static_cast<std::uint8_t>(source->material);
-  std::uint8_t* __restrict materials = material;
-  for (std::uint32_t x = begin; x < end; ++x) materials[x] = index;
-  for (int i = 0; i < 3; ++i) {
-    const WordPlane& plane = source->normal[i];
-    const std::uint32_t step = plane.a;
-    std::uint32_t word = plane.a * begin + plane.b * line + plane.c;
-    std::uint32_t* __restrict words = normal[i];
-    for (std::uint32_t x = begin; x < end; ++x) {
-      words[x] = word;
-      word += step;
-    }
-  }
-#endif
-}
-
-std::uint64_t resolve(const ResolveRequest& request) {
-  const Planes planes(request);
-  const std::uint32_t* const winner = request.winner;
-  const std::uint32_t columns = request.columns;
-  const std::uint32_t mask = request.mark_mask;
-  const FragmentSource* const* const sources = request.sources;
+// Sixteen pixels at a time: each winner among them computes all, and keeps its own.
+std::uint64_t resolve(const ResolveRequest& given) {
+  const ResolveRequest request = given;  // nothing that is stored can change it
+  const Normalising normalising(request.word_bits, request.normal_bits);
+  const __m512i mask = all(request.mark_mask);
+  const std::uint32_t line = request.line + 1;
+  const __m512i lanes = from_0_to_15();
   std::uint64_t seen = 0;
-  std::uint32_t begin = 0;
-  const auto run = [&](std::uint32_t end) {
-    const FragmentSource* source = sources[winner[begin] & mask];
-    seen += source != nullptr ? end - begin : 0;
-    planes.fill(source, begin, end);
-    begin = end;
-  };
-#if defined(__AVX512BW__)
-  for (std::uint32_t x = 0; x < columns; x += 16) {
-    const __m512i other = _mm512_xor_si512(_mm512_loadu_si512(winner + x), _mm512_loadu_si512(winner + x + 1));
-    std::uint32_t changes = _mm512_test_epi32_mask(other, all(mask));
-    const std::uint32_t left = columns - x;
-    if (left <= 16) changes = (changes & ((1U << left) - 1)) | 1U << (left - 1);
-    for (; changes != 0; changes &= changes - 1) run(x + static_cast<std::uint32_t>(__builtin_ctz(changes)) + 1);
+  for (std::uint32_t x = 0; x < request.columns; x += 16) {
+    const __m512i marks = _mm512_and_si512(_mm512_loadu_si512(request.winner + x), mask);
+    const std::uint32_t left = request.columns - x;
+    std::uint32_t open = _mm512_test_epi32_mask(marks, marks);
+    open &= left >= 16 ? 0xFFFFU : (1U << left) - 1;
+    __m512i object = _mm512_setzero_si512();
+    if (open == 0) {
+      _mm512_storeu_si512(request.object + x, object);
+      continue;
+    }
+    seen += static_cast<std::uint64_t>(__builtin_popcount(open));
+    const __m512i columns = _mm512_add_epi32(lanes, all(x));
+    __m512i word[3] = {object, object, object};
+    __m512i material = object;
+    do {
+      const std::uint32_t mark = request.winner[x + static_cast<std::uint32_t>(__builtin_ctz(open))] & request.mark_mask;
+      const __mmask16 own = _mm512_cmpeq_epu32_mask(marks, all(mark));
+      const FragmentSource& source = *request.sources[mark];
+      for (int i = 0; i < 3; ++i) {
+        const WordPlane& plane = source.normal[i];
+        word[i] = _mm512_mask_add_epi32(word[i], own, _mm512_mullo_epi32(columns, all(plane.a)),
+                                        all(plane.b * line + plane.c));
+      }
+      object = _mm512_mask_mov_epi32(object, own, all(source.object));
+      material = _mm512_mask_mov_epi32(material, own, all(source.material));
+      open &= ~static_cast<std::uint32_t>(own);
+    } while (open != 0);
+    _mm512_storeu_si512(request.object + x, object);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(request.material + x), _mm512_cvtepi32_epi8(material));
+    if (request.link[0] == nullptr) {
+      for (int i = 0; i < 3; ++i) _mm512_storeu_si512(request.normal[i] + x, word[i]);
+      continue;
+    }
+    __m256i link[3];
+    normalising(word, link);
+    for (int i = 0; i < 3; ++i) _mm256_storeu_si256(reinterpret_cast<__m256i*>(request.link[i] + x), link[i]);
   }
-#else
-  for (std::uint32_t x = 1; x <= columns; ++x)
-    if (x == columns || ((winner[x] ^ winner[begin]) & mask) != 0) run(x);
-#endif
   return seen;
 }
 
-#if defined(__AVX512BW__)
-
 void prenormalise(const PrenormaliseRequest& request) {
-  const __m128i up = _mm_cvtsi32_si128(static_cast<int>(32 - request.word_bits));
-  const unsigned magnitude_bits = request.normal_bits - 1;
-  const __m512i at_least = all((1U << magnitude_bits) - 1);
-  const __m512i zeros = all(32 - magnitude_bits);
-  const __m512i sign_bit = all(1U << magnitude_bits);
+  const Normalising normalising(request.word_bits, request.normal_bits);
   for (std::size_t x = 0; x < request.count; x += 16) {
-    if (request.wanted != nullptr) {
-      const __m512i wanted = _mm512_loadu_si512(request.wanted + x);
-      if (_mm512_test_epi32_mask(wanted, wanted) == 0) continue;
-    }
-    __m512i magnitude[3], sign[3];
-    __m512i together = at_least;
-    for (int i = 0; i < 3; ++i) {
-      const __m512i word = _mm512_sll_epi32(_mm512_loadu_si512(request.normal[i] + x), up);
-      sign[i] = _mm512_srai_epi32(word, 31);
-      magnitude[i] = _mm512_xor_si512(_mm512_sra_epi32(word, up), sign[i]);
-      together = _mm512_or_si512(together, magnitude[i]);
-    }
-    const __m512i shift = _mm512_sub_epi32(zeros, _mm512_lzcnt_epi32(together));
-    for (int i = 0; i < 3; ++i) {
-      const __m512i link =
-          _mm512_or_si512(_mm512_srlv_epi32(magnitude[i], shift), _mm512_and_si512(sign[i], sign_bit));
-      _mm256_storeu_si256(reinterpret_cast<__m256i*>(request.link[i] + x), _mm512_cvtepi32_epi16(link));
-    }
+    __m512i word[3];
+    __m256i link[3];
+    for (int i = 0; i < 3; ++i) word[i] = _mm512_loadu_si512(request.normal[i] + x);
+    normalising(word, link);
+    for (int i = 0; i < 3; ++i) _mm256_storeu_si256(reinterpret_cast<__m256i*>(request.link[i] + x), link[i]);
   }
 }
 
@@ -523,6 +495,49 @@ void prenormalise(const PrenormaliseRequest& request) {
     link_y[i] = static_cast<std::uint16_t>(ky | ((ny >> 31) & sign_bit));
     link_z[i] = static_cast<std::uint16_t>(kz | ((nz >> 31) & sign_bit));
   }
+}
+
+void fill_run(const ResolveRequest& request, const FragmentSource* source, std::uint32_t begin, std::uint32_t end) {
+  const std::uint32_t number = source != nullptr ? source->object : 0;
+  std::uint32_t* __restrict objects = request.object;
+  for (std::uint32_t x = begin; x < end; ++x) objects[x] = number;
+  if (source == nullptr) return;
+  const auto index = static_cast<std::uint8_t>(source->material);
+  std::uint8_t* __restrict materials = request.material;
+  for (std::uint32_t x = begin; x < end; ++x) materials[x] = index;
+  for (int i = 0; i < 3; ++i) {
+    const WordPlane& plane = source->normal[i];
+    const std::uint32_t step = plane.a;
+    std::uint32_t word = plane.a * begin + plane.b * (request.line + 1) + plane.c;
+    std::uint32_t* __restrict words = request.normal[i];
+    for (std::uint32_t x = begin; x < end; ++x) {
+      words[x] = word;
+      word += step;
+    }
+  }
+}
+
+// By runs of one winner.
+std::uint64_t resolve(const ResolveRequest& request) {
+  const std::uint32_t* const winner = request.winner;
+  const std::uint32_t columns = request.columns;
+  const std::uint32_t mask = request.mark_mask;
+  std::uint64_t seen = 0;
+  std::uint32_t begin = 0;
+  for (std::uint32_t x = 1; x <= columns; ++x) {
+    if (x < columns && ((winner[x] ^ winner[begin]) & mask) == 0) continue;
+    const FragmentSource* source = request.sources[winner[begin] & mask];
+    seen += source != nullptr ? x - begin : 0;
+    fill_run(request, source, begin, x);
+    begin = x;
+  }
+  if (request.link[0] != nullptr)
+    prenormalise({{request.normal[0], request.normal[1], request.normal[2]},
+                  {request.link[0], request.link[1], request.link[2]},
+                  columns,
+                  request.word_bits,
+                  request.normal_bits});
+  return seen;
 }
 
 #endif

@@ -32,10 +32,9 @@ inline __m512i root_of(const RootArithmetic& arithmetic, __m512i address) {
   const __m512 value = _mm512_add_ps(_mm512_cvtepi32_ps(address), _mm512_set1_ps(0.5F));
   const __m512 estimate = _mm512_rsqrt14_ps(value);
   const __m512 square = _mm512_mul_ps(_mm512_mul_ps(value, estimate), estimate);
-  const __m512 better =
-      _mm512_mul_ps(estimate, _mm512_sub_ps(_mm512_set1_ps(1.5F), _mm512_mul_ps(square, _mm512_set1_ps(0.5F))));
-  const __m512 scaled = _mm512_add_ps(_mm512_mul_ps(better, _mm512_set1_ps(arithmetic.scale)), _mm512_set1_ps(0.5F));
-  return _mm512_min_epu32(_mm512_cvttps_epi32(scaled), all_32(arithmetic.limit));
+  const __m512 factor = _mm512_fnmadd_ps(square, _mm512_set1_ps(0.5F * arithmetic.scale),
+                                         _mm512_set1_ps(1.5F * arithmetic.scale));
+  return _mm512_min_epu32(_mm512_cvtps_epi32(_mm512_mul_ps(estimate, factor)), all_32(arithmetic.limit));
 }
 
 inline __m512i root_at(const ShadeRequest& request, __m512i address) {
@@ -80,28 +79,30 @@ inline Normals normalise(const ShadeRequest& request, std::size_t x) {
                                              all_16(static_cast<int>(request.short_address))) &
                      ~normals.zero;
   const __m512i root = _mm512_packus_epi32(root_at(request, address.low), root_at(request, address.high));
-  const __m128i product_lift = count_of(request.product_lift);
-  const __m128i entry_lift = count_of(request.entry_lift);
+  // (2 m + 1) << lift
+  const __m128i product_lift = count_of(request.product_lift + 1);
+  const __m128i entry_lift = count_of(request.entry_lift + 1);
+  const __m512i product_half = all_16(1 << request.product_lift);
+  const __m512i entry_half = all_16(1 << request.entry_lift);
   for (int i = 0; i < 3; ++i) {
-    const __m512i twice = _mm512_add_epi16(_mm512_add_epi16(magnitude[i], magnitude[i]), one);
-    const __m512i product = _mm512_mulhi_epu16(_mm512_sll_epi16(twice, product_lift), root);
-    const __m512i n = _mm512_min_epu16(product, all_16(request.component_limit));
-    normals.component[i] = _mm512_sll_epi16(_mm512_add_epi16(_mm512_add_epi16(n, n), one), entry_lift);
+    const __m512i twice = _mm512_add_epi16(_mm512_sll_epi16(magnitude[i], product_lift), product_half);
+    const __m512i n = _mm512_min_epu16(_mm512_mulhi_epu16(twice, root), all_16(request.component_limit));
+    normals.component[i] = _mm512_add_epi16(_mm512_sll_epi16(n, entry_lift), entry_half);
   }
   return normals;
 }
 
 inline __m512i dot(const ShadeRequest& request, const ShadeLight& light, int k, const Normals& normals) {
-  __m512i sum = _mm512_setzero_si512();
+  __m512i sum = all_16(1);  // (2 sum + 3) >> shift is (sum + 1) >> (shift - 1)
   for (int i = 0; i < 3; ++i) {
     const __m512i entry = _mm512_mulhi_epu16(normals.component[i], all_16(light.word[k][i]));
     constexpr int kExclusiveOr = 0x96;  // of three
     sum = _mm512_add_epi16(
         sum, _mm512_ternarylogic_epi32(entry, normals.sign[i], all_16(light.flip[k][i]), kExclusiveOr));
   }
-  sum = _mm512_add_epi16(_mm512_add_epi16(sum, sum), all_16(3));
-  sum = _mm512_min_epi16(_mm512_max_epi16(sum, _mm512_setzero_si512()), all_16(request.full_scale));
-  return _mm512_srl_epi16(sum, count_of(request.index_shift));
+  const __m512i index = _mm512_sra_epi16(sum, count_of(request.index_shift - 1));
+  return _mm512_min_epi16(_mm512_max_epi16(index, _mm512_setzero_si512()),
+                          all_16(request.full_scale >> request.index_shift));
 }
 
 inline __m512i by_material(const std::uint16_t* words, __m512i material) {
@@ -124,8 +125,8 @@ inline void add_light(const ShadeRequest& request, const ShadeLight& light, cons
                       __mmask32 lit, __m512i (&sum)[3]) {
   const __m512i diffuse = dot(request, light, 0, normals);
   const __m512i specular = dot(request, light, 1, normals);
-  const __m512i ramp = _mm512_sll_epi16(_mm512_add_epi16(_mm512_add_epi16(diffuse, diffuse), all_16(1)),
-                                        count_of(request.diffuse_lift));
+  const __m512i ramp = _mm512_add_epi16(_mm512_sll_epi16(diffuse, count_of(request.diffuse_lift + 1)),
+                                        all_16(1 << request.diffuse_lift));
   for (int c = 0; c < 3; ++c) {
     const __m512i level = _mm512_mulhrs_epi16(ramp, by_material(light.diffuse[c], material));
     sum[c] = _mm512_mask_add_epi16(sum[c], lit, sum[c], level);
@@ -177,10 +178,10 @@ inline void shade_block(const ShadeRequest& request, const ShadeLight& first_lig
   for (std::size_t l = 1; l < request.light_count; ++l)
     add_light(request, request.lights[l], normals, material, lit, sum);
   const __m512i full = all_16(255);
-  __mmask32 saturated = 0;
+  const __mmask32 saturated =
+      _mm512_cmpgt_epu16_mask(_mm512_max_epu16(_mm512_max_epu16(sum[0], sum[1]), sum[2]), full);
   __m512i levels[3];
   for (int c = 0; c < 3; ++c) {
-    saturated |= _mm512_cmpgt_epu16_mask(sum[c], full);
     levels[c] = _mm512_mask_min_epu16(all_16(request.background[c]), seen, sum[c], full);
   }
   totals.pixels += bits_of(seen);
