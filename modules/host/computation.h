@@ -93,6 +93,7 @@ class Computation {
     set_up::ScreenTriangle<double> screen{};  // where it needs no guard band
   };
 
+  void prefetch(const Triangle& triangle) const;
   void transform(Triangle& triangle);
   void transform_counted(Triangle& triangle);
   void cut(Triangle& triangle, const geometry::ClipTriangle<Number>& corners);

@@ -108,10 +108,10 @@ ObjectBoard::Loading& ObjectBoard::writable(std::uint32_t slot, std::size_t inde
 void ObjectBoard::write_words(std::uint32_t slot, std::size_t index, std::span<const std::uint32_t> values) {
   if (values.empty()) return;
   ProcessorWords& words = writable(slot, index + values.size() - 1).words;
-  for (const std::uint32_t value : values) {
-    words[index] = value & (index == kMaterialIndex ? kMaterialMask : format_.mask());
-    ++index;
-  }
+  const std::uint32_t mask = format_.mask();
+  for (std::size_t i = 0; i < values.size(); ++i) words[index + i] = values[i] & mask;
+  // Eight bits at least hold the material.
+  if (index + values.size() == kWords) words[kMaterialIndex] &= kMaterialMask;
 }
 
 void ObjectBoard::write(std::uint32_t slot, const TriangleWords& triangle) { write_words(slot, 0, to_words(triangle)); }

@@ -150,6 +150,8 @@ inline void mark_seen(const Eight& eight, __m512i begin, __m512i end, std::uint6
   }
 }
 
+constexpr std::size_t kAhead = 3;  // slots, whose words are asked for
+
 void band(const BandRequest& request, BandLines& out) {
   const BandVectors vectors(request);
   frame::CoveredSpan* next[kBandLines];
@@ -161,6 +163,9 @@ void band(const BandRequest& request, BandLines& out) {
   for (std::size_t i = 0; i < request.count; ++i) {
     const std::uint32_t slot = request.slots[i];
     const FragmentSource* source = request.sources + slot;
+    const std::uint32_t later = request.slots[i + kAhead < request.count ? i + kAhead : i];
+    __builtin_prefetch(request.borders + later);
+    __builtin_prefetch(request.sources + later);
     const Eight eight =
         eight_spans(request.borders[slot], request.lines[slot], source->depth, request.word_mask, vectors);
     if (eight.covers == 0) continue;
