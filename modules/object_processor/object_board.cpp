@@ -183,7 +183,8 @@ std::uint32_t ObjectBoard::copy() {
     const HalfPlanes planes =
         half_planes(edges_[slot], format_, static_cast<std::int32_t>(columns_), static_cast<std::int32_t>(lines_));
     intervals_[slot] = interval_of(edges_[slot], planes);
-    careful_[slot] = planes.count < 3 || !find_borders(planes, borders_[slot]) ? 1 : 0;
+    // Edges along lines are in the interval alone.
+    careful_[slot] = everything_ || planes.count < 3 || !find_borders(planes, borders_[slot]) ? 1 : 0;
     changed_[slot] = 0;
   }
   const auto copied = static_cast<std::uint32_t>(changes_.size());

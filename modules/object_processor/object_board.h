@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -121,7 +120,7 @@ class ObjectBoard {
   void resolve_winners(std::uint32_t line, frame::FragmentLine& out);
   void fill_run(std::uint32_t slot, std::uint32_t line, std::size_t begin, std::size_t end, frame::FragmentLine& out);
 
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t kNone = std::uint32_t{1} << 31;  // no line or band, nor near one, modulo 2^32
 
   // What every line asks for, side by side. Lines of a band that were found together, from ready_first_ on.
   BoardCounters counters_;

@@ -26,7 +26,7 @@ class Prenormaliser {
   LinkNormal operator()(const std::array<std::uint32_t, 3>& normal) const;
   unsigned shift_of(const std::array<std::uint32_t, 3>& normal) const;  // K
 
-  // The same for `count` pixels; arrays do not overlap, and have 16 pixels to spare.
+  // The same for `count` pixels; arrays do not overlap.
   void line(std::array<const std::uint32_t*, 3> normal, std::array<std::uint16_t*, 3> link, std::size_t count) const;
 
   unsigned largest_shift() const { return largest_shift_; }  // K is in 0..largest_shift: 12 for 24 and 12 bits
