@@ -23,9 +23,8 @@ class DecisionUnitModule : public sc_core::sc_module {
 
   // `latency`: from the word of a pixel leaving the boards to its decision, in cycles of `clock`.
   // `composer` makes pixels of lines that come as spans; boards send either all spans or all pixels.
-  DecisionUnitModule(const sc_core::sc_module_name& name, DecisionUnit& unit,
-                     object_processor::LineComposer& composer, std::size_t columns, std::size_t boards,
-                     const Clock& clock, Cycles latency, stream::Link& link);
+  DecisionUnitModule(const sc_core::sc_module_name& name, DecisionUnit& unit, object_processor::LineComposer& composer,
+                     std::size_t columns, std::size_t boards, const Clock& clock, Cycles latency, stream::Link& link);
 
   std::uint64_t lines_sent() const { return lines_sent_; }
 

@@ -69,6 +69,7 @@ Computation::Computation(const ResidentScene& scene, const MachineFormat& format
   for (std::uint32_t slot = 0; slot < format.slots; ++slot)
     if (!owned[slot]) free_slots_.push_back(slot);
   object_to_clip_.resize(scene.objects.size());
+  loads_.reserve(triangles_.size());
 }
 
 Survey Computation::survey(const FrameWork& work) {

@@ -13,8 +13,8 @@ namespace rastertlm::host {
 
 // False where the corner in clip space needs the guard band; otherwise `screen` is where it stands.
 template <class T>
-bool on_screen(const geometry::ClipVertex<T>& clip, const geometry::SnapGrid& grid,
-               const geometry::Viewport& viewport, geometry::ScreenVertex<T>& screen) {
+bool on_screen(const geometry::ClipVertex<T>& clip, const geometry::SnapGrid& grid, const geometry::Viewport& viewport,
+               geometry::ScreenVertex<T>& screen) {
   if (!geometry::within_depth(clip)) return false;
   screen = geometry::to_screen(clip, viewport);
   return geometry::within_samples(screen, grid, viewport);

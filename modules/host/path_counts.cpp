@@ -41,9 +41,9 @@ PathCounts count_paths() {
     object_to_clip[3] = {0.0, 0.0, 0.5, 1.0};  // the middle of the screen
     for (int i = 0; i < 3; ++i) {
       geometry::ScreenVertex<Number> screen{};
-      on_screen(set_up::transform_vertex<Number>(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0), object_to_clip,
-                                                 glm::dmat3(1.0)),
-                {4, 0, 0}, {kSide, kSide}, screen);
+      on_screen(
+          set_up::transform_vertex<Number>(glm::dvec3(0.0), glm::dvec3(0.0, 0.0, 1.0), object_to_clip, glm::dmat3(1.0)),
+          {4, 0, 0}, {kSide, kSide}, screen);
     }
   });
   counts.drawn = fit(8.0, 40.0, 40.0, 8.0);  // counter-clockwise, y down

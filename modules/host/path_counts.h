@@ -12,8 +12,8 @@
 namespace rastertlm::host {
 
 struct PathCounts {
-  geometry::OperationCounts matrix;       // object to clip space
-  geometry::OperationCounts three_inside; // corners to the screen, none of which needs the guard band
+  geometry::OperationCounts matrix;        // object to clip space
+  geometry::OperationCounts three_inside;  // corners to the screen, none of which needs the guard band
   // Fitting, by what becomes of the triangle; means something for snapped edges alone.
   geometry::OperationCounts drawn;
   geometry::OperationCounts back_face;

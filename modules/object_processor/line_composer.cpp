@@ -49,8 +49,7 @@ std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> b
     request.link[i] = normalises ? link[i] : nullptr;
   }
   const std::uint64_t seen = kernels_->resolve(request);
-  if (!normalises)
-    prenormaliser_.line({normal_[0].data(), normal_[1].data(), normal_[2].data()}, link, columns);
+  if (!normalises) prenormaliser_.line({normal_[0].data(), normal_[1].data(), normal_[2].data()}, link, columns);
   return seen;
 }
 

@@ -13,20 +13,6 @@ namespace {
 
 constexpr std::uint32_t kMaterialMask = 0xFF;  // the line holds a material in a byte
 
-// The depth comparator along a span. Word: as what words are compared; narrower ones than 32 bits are not negative, and
-// vector units without unsigned comparisons do those faster as signed.
-template <class Word>
-void compare_depth(std::uint32_t depth, std::uint32_t step, std::uint32_t mask, std::uint32_t mark,
-                   std::uint32_t* __restrict nearest, std::uint32_t* __restrict winner, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t word = depth & mask;
-    const bool wins = static_cast<Word>(word) < static_cast<Word>(nearest[i]);
-    nearest[i] = wins ? word : nearest[i];
-    winner[i] = wins ? mark : winner[i];
-    depth += step;
-  }
-}
-
 // False where three edges bound the same side: no triangle of a scene has such edges.
 bool find_borders(const HalfPlanes& planes, Borders& borders) {
   std::size_t lefts = 0;
@@ -88,6 +74,7 @@ ObjectBoard::Loading& ObjectBoard::writable(std::uint32_t slot, std::size_t inde
     throw ModelError("object_board", 0,
                      fmt::format("bus write to slot {} word {}: the board has {} slots of {} words", slot, index,
                                  processors_, kWords));
+  if (slot >= loading_.capacity()) reserve(std::size_t{slot} + 1);
   while (loading_.size() <= slot) {
     loading_.push_back(parked_slot(static_cast<std::uint32_t>(loading_.size())));
     edges_.emplace_back();
@@ -103,6 +90,19 @@ ObjectBoard::Loading& ObjectBoard::writable(std::uint32_t slot, std::size_t inde
     changes_.push_back(slot);
   }
   return loading_[slot];
+}
+
+// By a quarter at a time: a vector of its own accord would hold up to twice what it needs.
+void ObjectBoard::reserve(std::size_t slots) {
+  const std::size_t room = std::min<std::size_t>(processors_, std::max(slots, loading_.size() + loading_.size() / 4));
+  loading_.reserve(room);
+  edges_.reserve(room);
+  sources_.reserve(room);
+  borders_.reserve(room);
+  intervals_.reserve(room);
+  careful_.reserve(room);
+  changed_.reserve(room);
+  changes_.reserve(room);
 }
 
 void ObjectBoard::write_words(std::uint32_t slot, std::size_t index, std::span<const std::uint32_t> values) {
@@ -164,8 +164,8 @@ std::uint64_t ObjectBoard::memory_bytes() const {
                                sizeof(Interval) + 2 * sizeof(std::uint8_t);
   const std::uint64_t indices = changes_.capacity() + bucket_begin_.capacity() + bucket_slots_.capacity() +
                                 touched_by_.capacity() + active_.capacity() + merged_.capacity();
-  return loading_.capacity() * a_slot + indices * sizeof(std::uint32_t) + spans_.capacity() * sizeof(frame::CoveredSpan) +
-         std::uint64_t{columns_} * 4 * sizeof(std::uint32_t);
+  return loading_.capacity() * a_slot + indices * sizeof(std::uint32_t) +
+         spans_.capacity() * sizeof(frame::CoveredSpan) + std::uint64_t{columns_} * 4 * sizeof(std::uint32_t);
 }
 
 Interval ObjectBoard::interval_of(const Edges& edges, const HalfPlanes& planes) const {
@@ -251,18 +251,6 @@ void ObjectBoard::select_band(std::uint32_t line) {
   current_band_ = band;
 }
 
-void ObjectBoard::evaluate_line(std::uint32_t line, frame::FragmentLine& out) {
-  check_line(line, out.columns());
-  select_band(line);
-  if (touched_by_[line] == 0) return;
-  ++counters_.lines_evaluated;
-  counters_.processors_visited += touched_by_[line];
-  touched_ = {static_cast<std::int32_t>(columns_), 0};
-  for (const std::uint32_t slot : active_)
-    if (intervals_[slot].holds(static_cast<std::int32_t>(line))) evaluate_processor(slot, line, out);
-  if (!touched_.empty()) resolve_winners(line, out);
-}
-
 ObjectBoard::LineEdges ObjectBoard::line_edges(std::uint32_t slot, std::uint32_t line) const {
   LineEdges at;
   for (std::size_t edge = 0; edge < 3; ++edge) at.edges[edge] = format_.on_line(edges_[slot][edge], line);
@@ -270,219 +258,6 @@ ObjectBoard::LineEdges ObjectBoard::line_edges(std::uint32_t slot, std::uint32_t
   at.depth = depth.b * (line + 1) + depth.c;
   at.depth_step = depth.a;
   return at;
-}
-
-void ObjectBoard::evaluate_processor(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out) {
-  if (late_carry_) {
-    evaluate_late_carry(slot, line, out);
-    return;
-  }
-  const LineEdges at = line_edges(slot, line);
-  visit_spans(at, {0, static_cast<std::int32_t>(columns_)},
-              [&](const Interval& span) { draw_span(slot, at, span, out); });
-}
-
-// The line in two pieces: column 0, and the rest, which is linear.
-void ObjectBoard::evaluate_late_carry(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out) {
-  const TriangleWords triangle = backup(slot);
-  LineEdges first{};
-  LineEdges rest{};
-  for (std::size_t edge = 0; edge < 3; ++edge) {
-    const LateCarryLine late = late_carry_line(triangle.edges[edge], parameters_, line);
-    first.edges[edge] = format_.on_line(0, 0, late.first, line);
-    rest.edges[edge] = format_.on_line(triangle.edges[edge].a, 0, late.start, line);
-  }
-  const LateCarryLine depth = late_carry_line(triangle.depth, parameters_, line);
-  first.depth = depth.first;
-  rest.depth = depth.start;
-  rest.depth_step = triangle.depth.a;
-  visit_spans(first, {0, 1}, [&](const Interval& span) { draw_span(slot, first, span, out); });
-  visit_spans(rest, {1, static_cast<std::int32_t>(columns_)},
-              [&](const Interval& span) { draw_span(slot, rest, span, out); });
-}
-
-// Calls `draw` with each run of inside pixels of `span`.
-template <class Draw>
-void ObjectBoard::visit_spans(const LineEdges& at, Interval span, const Draw& draw) {
-  const auto last_column = static_cast<std::int32_t>(columns_) - 1;
-  std::uint32_t wrapping = 0;
-  for (std::size_t edge = 0; edge < 3; ++edge) {
-    if (stays_inside(at.edges[edge], last_column))
-      narrow(at.edges[edge], span);
-    else
-      wrapping |= 1U << edge;
-  }
-  if (span.empty()) return;
-  if (wrapping == 0)
-    draw(span);
-  else
-    visit_stepped(at, wrapping, span, draw);
-}
-
-// Edges that could wrap are looked at pixel by pixel.
-template <class Draw>
-void ObjectBoard::visit_stepped(const LineEdges& at, std::uint32_t wrapping, Interval span, const Draw& draw) {
-  counters_.pixels_stepped += static_cast<std::uint64_t>(span.end - span.begin);
-  std::int32_t run = span.begin;
-  for (std::int32_t column = span.begin; column <= span.end; ++column) {
-    bool inside = column < span.end;
-    for (std::size_t edge = 0; inside && edge < 3; ++edge) {
-      if ((wrapping >> edge & 1U) == 0) continue;
-      const std::uint32_t word = static_cast<std::uint32_t>(at.edges[edge].start) +
-                                 static_cast<std::uint32_t>(at.edges[edge].step) * static_cast<std::uint32_t>(column);
-      inside = (word >> 31) == 0;
-    }
-    if (inside) continue;
-    if (run < column) draw({run, column});
-    run = column + 1;
-  }
-}
-
-// Finds the spans of the line's band.
-void ObjectBoard::make_ready(std::uint32_t line) {
-  select_band(line);
-  ready_first_ = current_band_ * kBandLines;
-  const std::size_t room = active_.size() + 1;
-  if (spans_.size() < kBandLines * room) spans_.resize(kBandLines * room);
-  BandLines found;
-  for (std::size_t k = 0; k < kBandLines; ++k) found.line[k].spans = &spans_[k * room];
-  const bool careful = std::any_of(active_.begin(), active_.end(), [this](auto slot) { return careful_[slot] != 0; });
-  if (!careful)
-    kernels_.band({active_.data(), active_.size(), borders_.data(), intervals_.data(), sources_.data(), ready_first_,
-                   columns_, format_.mask(), seen_.data(), seen_.size() / kBandLines},
-                  found);
-  for (std::uint32_t k = 0; k < kBandLines; ++k) {
-    const BandLine& band_line = found.line[k];
-    const std::uint32_t touched = ready_first_ + k < lines_ ? touched_by_[ready_first_ + k] : 0;
-    ready_[k] = {{band_line.spans, band_line.count, band_line.seen_pixels},
-                 band_line.fragments,
-                 touched,
-                 touched > 0 && (careful || (found.doubtful >> k & 1U) != 0)};
-  }
-}
-
-const frame::CoveredLine& ObjectBoard::cover_line(std::uint32_t line) {
-  if (line - ready_first_ >= kBandLines || line >= lines_) {
-    check_line(line, columns_);
-    make_ready(line);
-  }
-  Ready& ready = ready_[line - ready_first_];
-  if (ready.careful) cover_carefully(line, ready);
-  counters_.lines_evaluated += ready.touched > 0 ? 1 : 0;
-  counters_.processors_visited += ready.touched;
-  counters_.fragments_in += ready.fragments;
-  counters_.fragments_kept += ready.covered.seen_pixels;
-  counters_.fragments_hidden += ready.fragments - ready.covered.seen_pixels;
-  return ready.covered;
-}
-
-// A line on which an edge could wrap, or a depth reach the word of nothing: span by span, as evaluate_line draws it.
-void ObjectBoard::cover_carefully(std::uint32_t line, Ready& ready) {
-  std::fill(seen_.begin(), seen_.end(), 0U);
-  careful_spans_.clear();
-  ready.fragments = 0;
-  for (const std::uint32_t slot : active_) {
-    if (!intervals_[slot].holds(static_cast<std::int32_t>(line))) continue;
-    const LineEdges at = line_edges(slot, line);
-    visit_spans(at, {0, static_cast<std::int32_t>(columns_)}, [&](const Interval& span) {
-      ready.fragments += static_cast<std::uint64_t>(span.end - span.begin);
-      cover_span(slot, at, span);
-    });
-  }
-  std::uint64_t seen = 0;
-  for (const std::uint64_t word : seen_) seen += static_cast<std::uint64_t>(std::popcount(word));
-  ready.covered = {careful_spans_.data(), careful_spans_.size(), seen};
-}
-
-void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span) {
-  const auto begin = static_cast<std::uint32_t>(span.begin);
-  const auto end = static_cast<std::uint32_t>(span.end);
-  careful_spans_.push_back({begin, end, &sources_[slot]});
-  for (std::uint32_t column = begin; column < end; ++column)
-    if (((at.depth + at.depth_step * column) & format_.mask()) != format_.mask())
-      seen_[column / 64] |= std::uint64_t{1} << (column % 64);
-}
-
-void ObjectBoard::draw_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out) {
-  const auto begin = static_cast<std::uint32_t>(span.begin);
-  const auto end = static_cast<std::uint32_t>(span.end);
-  const std::uint32_t mask = format_.mask();
-  out.extend(begin, end, mask);
-  touched_.begin = std::min(touched_.begin, span.begin);
-  touched_.end = std::max(touched_.end, span.end);
-  counters_.fragments_in += end - begin;
-  const std::uint32_t start = at.depth + at.depth_step * begin;
-  const std::size_t count = end - begin;
-  if (format_.bits() < 32)
-    compare_depth<std::int32_t>(start, at.depth_step, mask, slot + 1, out.depth.data() + begin, winner_.data() + begin,
-                                count);
-  else
-    compare_depth<std::uint32_t>(start, at.depth_step, mask, slot + 1, out.depth.data() + begin, winner_.data() + begin,
-                                 count);
-  std::uint16_t* __restrict coverage = out.coverage.data();
-  for (std::uint32_t column = begin; column < end; ++column) ++coverage[column];
-}
-
-void ObjectBoard::resolve_winners(std::uint32_t line, frame::FragmentLine& out) {
-  const auto begin = static_cast<std::size_t>(touched_.begin);
-  const auto end = static_cast<std::size_t>(touched_.end);
-  std::uint64_t seen = 0;
-  const std::uint64_t in_before = counters_.fragments_kept + counters_.fragments_hidden;
-  for (std::size_t column = begin; column < end;) {
-    if (winner_[column] == 0) {
-      column += winner_[column + 1] == 0 ? 2 : 1;
-      continue;
-    }
-    // A stretch of pixels that this board shows, by runs of one winner; winner_[columns] is 0 and ends the last.
-    const std::size_t stretch = column;
-    while (winner_[column] != 0) {
-      const std::uint32_t winner = winner_[column];
-      const std::size_t run = column;
-      while (winner_[column] == winner) ++column;
-      fill_run(winner - 1, line, run, column, out);
-    }
-    std::fill(winner_.begin() + static_cast<std::ptrdiff_t>(stretch),
-              winner_.begin() + static_cast<std::ptrdiff_t>(column), 0U);
-    prenormaliser_.line({normal_[0].data() + stretch, normal_[1].data() + stretch, normal_[2].data() + stretch},
-                        {out.normal_x.data() + stretch, out.normal_y.data() + stretch, out.normal_z.data() + stretch},
-                        column - stretch);
-    seen += column - stretch;
-  }
-  counters_.fragments_kept += seen;
-  counters_.fragments_hidden += counters_.fragments_in - in_before - seen;
-}
-
-void ObjectBoard::fill_run(std::uint32_t slot, std::uint32_t line, std::size_t begin, std::size_t end,
-                           frame::FragmentLine& out) {
-  const frame::FragmentSource& source = sources_[slot];
-  const auto first = static_cast<std::uint32_t>(begin);
-  const auto last = static_cast<std::uint32_t>(end);
-  for (std::size_t component = 0; component < 3; ++component) {
-    const frame::WordPlane& plane = source.normal[component];
-    const std::uint32_t step = plane.a;
-    std::uint32_t* __restrict normal = normal_[component].data();
-    std::uint32_t start = plane.b * (line + 1) + plane.c;
-    if (late_carry_) {
-      const LateCarryLine late =
-          late_carry_line({step, plane.b, plane.c}, parameters_, line);
-      start = late.start;
-      if (begin == 0) normal[0] = late.first;
-    }
-    const std::uint32_t from = late_carry_ ? std::max(first, 1U) : first;
-    std::uint32_t word = start + step * from;
-    for (std::uint32_t column = from; column < last; ++column) {
-      normal[column] = word;
-      word += step;
-    }
-  }
-  const auto material = static_cast<std::uint8_t>(source.material);
-  const std::uint32_t object = source.object;
-  std::uint8_t* __restrict materials = out.material.data();
-  std::uint32_t* __restrict objects = out.object.data();
-  for (std::size_t column = begin; column < end; ++column) {
-    materials[column] = material;
-    objects[column] = object;
-  }
 }
 
 }  // namespace rastertlm::object_processor

@@ -101,6 +101,7 @@ class ObjectBoard {
 
   Loading& writable(std::uint32_t slot, std::size_t index);
   Loading parked_slot(std::uint32_t slot) const;
+  void reserve(std::size_t slots);
   void load(std::uint32_t slot);
   Interval interval_of(const Edges& edges, const HalfPlanes& planes) const;
   void rebuild_buckets();
@@ -148,10 +149,10 @@ class ObjectBoard {
   std::vector<std::uint8_t> careful_;           // whether an edge could wrap, or has no place in Borders
   std::vector<std::uint8_t> changed_;           // since the last copy
 
-  std::vector<std::uint32_t> changes_;         // the slots with changed_ set
-  std::vector<std::uint32_t> bucket_begin_;    // bands + 1: where the slots that begin in a band stand in bucket_slots_
-  std::vector<std::uint32_t> bucket_slots_;    // in order of their numbers within a band
-  std::vector<std::uint32_t> touched_by_;      // a line: how many slots can touch it
+  std::vector<std::uint32_t> changes_;       // the slots with changed_ set
+  std::vector<std::uint32_t> bucket_begin_;  // bands + 1: where the slots that begin in a band stand in bucket_slots_
+  std::vector<std::uint32_t> bucket_slots_;  // in order of their numbers within a band
+  std::vector<std::uint32_t> touched_by_;    // a line: how many slots can touch it
 
   std::vector<std::uint32_t> active_;  // slots that can touch a line of current_band_, in order of their numbers
   std::vector<std::uint32_t> merged_;  // the next active_, in the making

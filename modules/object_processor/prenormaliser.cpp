@@ -43,11 +43,8 @@ void Prenormaliser::line(std::array<const std::uint32_t*, 3> normal, std::array<
                          std::size_t count) const {
   constexpr std::size_t kVector = 16;  // kernels run over the end of what is no multiple of it
   const std::size_t whole = word_bits_ <= kNormalisedBits ? count - count % kVector : 0;
-  kernels_->prenormalise({{normal[0], normal[1], normal[2]},
-                          {link[0], link[1], link[2]},
-                          whole,
-                          word_bits_,
-                          normal_bits_});
+  kernels_->prenormalise(
+      {{normal[0], normal[1], normal[2]}, {link[0], link[1], link[2]}, whole, word_bits_, normal_bits_});
   for (std::size_t i = whole; i < count; ++i) {
     const LinkNormal words = (*this)({normal[0][i], normal[1][i], normal[2][i]});
     for (std::size_t component = 0; component < 3; ++component) link[component][i] = words[component];

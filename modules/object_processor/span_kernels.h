@@ -1,6 +1,6 @@
-// The inner loops of object boards, compiled for several instruction sets. All give the same words; which one is used is
-// chosen at run time (src/base/vector_variant.h). The sources of the kernels include this header and nothing that other
-// code shares.
+// The inner loops of object boards, compiled for several instruction sets. All give the same words; which one is used
+// is chosen at run time (src/base/vector_variant.h). The sources of the kernels include this header and nothing that
+// other code shares.
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,8 @@ struct BandLine {
 };
 struct BandLines {
   BandLine line[kBandLines];
-  std::uint32_t doubtful = 0;  // bit i: on line i a depth may reach the word that says "nothing"; its counts mean nothing
+  std::uint32_t doubtful =
+      0;  // bit i: on line i a depth may reach the word that says "nothing"; its counts mean nothing
 };
 
 // Where depth and mark share 32 bits, the nearest is the least of such keys: depth above, the mark below, so that equal

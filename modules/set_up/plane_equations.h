@@ -70,7 +70,9 @@ class PlaneFit {
 template <class T>
 PlaneFit<T>::PlaneFit(const std::array<geometry::SnappedPoint, 3>& corners, std::int64_t area, int fraction_bits,
                       const WordFormat& format)
-    : word_bits_(format.word_bits), anchor_bits_(fraction_bits + 1), fraction_unit_(1.0 / static_cast<double>(std::int64_t{1} << anchor_bits_)) {
+    : word_bits_(format.word_bits),
+      anchor_bits_(fraction_bits + 1),
+      fraction_unit_(1.0 / static_cast<double>(std::int64_t{1} << anchor_bits_)) {
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
   anchor_x_ = doubled_middle(left, right, (static_cast<std::int64_t>(format.columns) - 1) << fraction_bits);

@@ -19,8 +19,7 @@ Normaliser::Normaliser(const ShadingParameters& parameters, std::int64_t normal_
       short_limit_(std::uint32_t{1} << (2 * magnitude_bits_ - 2)),
       root_scale_(
           std::ldexp(1.0, static_cast<int>(parameters.normaliser_output_bits) + static_cast<int>(magnitude_bits_) - 1)),
-      largest_root_(
-          static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(parameters.normaliser_output_bits)))),
+      largest_root_(static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(parameters.normaliser_output_bits)))),
       rom_(std::size_t{1} << parameters.normaliser_address_bits) {
   const auto largest = static_cast<double>(largest_root_);
   for (std::size_t address = 0; address < rom_.size(); ++address) {

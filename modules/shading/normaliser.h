@@ -60,7 +60,7 @@ class Normaliser {
   const std::vector<std::uint16_t>& rom() const { return rom_; }
   unsigned address_shift() const { return address_shift_; }  // squares to ROM address
   unsigned product_shift() const { return product_shift_; }
-  double root_scale() const { return root_scale_; }  // an entry is round(scale / sqrt(squares)),
+  double root_scale() const { return root_scale_; }             // an entry is round(scale / sqrt(squares)),
   std::uint32_t largest_root() const { return largest_root_; }  // but not more than this
   std::uint32_t short_limit() const { return short_limit_; }
 

@@ -2,9 +2,9 @@
 // counts; which one is used is chosen at run time (src/base/vector_variant.h). The sources of the kernels include this
 // header and nothing that other code shares.
 //
-// Tables that are known to hold a straight line are not looked up but computed, because that is faster: partial products
-// of the dot-product units, diffuse levels, and where the processor can, inverse roots. Whoever fills a request has
-// compared every entry.
+// Tables that are known to hold a straight line are not looked up but computed, because that is faster: partial
+// products of the dot-product units, diffuse levels, and where the processor can, inverse roots. Whoever fills a
+// request has compared every entry.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ inline constexpr std::size_t kRootExceptions = 4;
 
 // A light as the kernel reads it.
 struct ShadeLight {
-  std::uint16_t word[2][3] = {};  // of N.L and N.H
-  std::uint16_t flip[2][3] = {};  // all ones where the component is negative
-  std::uint16_t diffuse[3][kKernelMaterials] = {};  // the constant of a channel's ramp, by material
-  const std::uint8_t* specular[3] = {};             // a channel's table, and 3 bytes to spare; all the same: white
+  std::uint16_t word[2][3] = {};                       // of N.L and N.H
+  std::uint16_t flip[2][3] = {};                       // all ones where the component is negative
+  std::uint16_t diffuse[3][kKernelMaterials] = {};     // the constant of a channel's ramp, by material
+  const std::uint8_t* specular[3] = {};                // a channel's table, and 3 bytes to spare; all the same: white
   std::uint16_t first_shining[kKernelMaterials] = {};  // by material, the first index whose specular level is not 0
 };
 
@@ -52,10 +52,10 @@ struct ShadeRequest {
   std::uint32_t last_material = 0;
   std::uint16_t background[3] = {};
   std::uint32_t short_address = 0;  // ROM addresses below it: the normal is short
-  unsigned magnitude_bits = 11;   // of a component; 11 at most
-  unsigned root_shift = 10;       // squares to ROM address
-  unsigned product_lift = 4;      // (2 m + 1) << lift times root, its high 16 bits: the normalised component
-  unsigned entry_lift = 4;        // the same with a component and a light's word: the partial product
+  unsigned magnitude_bits = 11;     // of a component; 11 at most
+  unsigned root_shift = 10;         // squares to ROM address
+  unsigned product_lift = 4;        // (2 m + 1) << lift times root, its high 16 bits: the normalised component
+  unsigned entry_lift = 4;          // the same with a component and a light's word: the partial product
   std::uint16_t component_limit = 2047;
   std::int16_t full_scale = 4095;  // of a dot product in half units
   unsigned index_shift = 2;        // to an index of the level tables

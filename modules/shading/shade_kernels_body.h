@@ -1,5 +1,5 @@
-// The kernels themselves, compiled once for each instruction set into the table that RASTERTLM_KERNELS names. Where there
-// is no AVX-512 the compiler's own vectors are used.
+// The kernels themselves, compiled once for each instruction set into the table that RASTERTLM_KERNELS names. Where
+// there is no AVX-512 the compiler's own vectors are used.
 #include "modules/shading/shade_kernels.h"
 
 #if defined(__AVX512BW__)
@@ -32,14 +32,13 @@ inline __m512i root_of(const RootArithmetic& arithmetic, __m512i address) {
   const __m512 value = _mm512_add_ps(_mm512_cvtepi32_ps(address), _mm512_set1_ps(0.5F));
   const __m512 estimate = _mm512_rsqrt14_ps(value);
   const __m512 square = _mm512_mul_ps(_mm512_mul_ps(value, estimate), estimate);
-  const __m512 factor = _mm512_fnmadd_ps(square, _mm512_set1_ps(0.5F * arithmetic.scale),
-                                         _mm512_set1_ps(1.5F * arithmetic.scale));
+  const __m512 factor =
+      _mm512_fnmadd_ps(square, _mm512_set1_ps(0.5F * arithmetic.scale), _mm512_set1_ps(1.5F * arithmetic.scale));
   return _mm512_min_epu32(_mm512_cvtps_epi32(_mm512_mul_ps(estimate, factor)), all_32(arithmetic.limit));
 }
 
 inline __m512i root_at(const ShadeRequest& request, __m512i address) {
-  if (!request.roots.usable)
-    return _mm512_and_si512(_mm512_i32gather_epi32(address, request.root, 2), all_32(0xFFFF));
+  if (!request.roots.usable) return _mm512_and_si512(_mm512_i32gather_epi32(address, request.root, 2), all_32(0xFFFF));
   __m512i root = root_of(request.roots, address);
   for (std::uint32_t i = 0; i < request.roots.exceptions; ++i)
     root = _mm512_mask_mov_epi32(root, _mm512_cmpeq_epi32_mask(address, all_32(request.roots.address[i])),
@@ -97,8 +96,8 @@ inline __m512i dot(const ShadeRequest& request, const ShadeLight& light, int k, 
   for (int i = 0; i < 3; ++i) {
     const __m512i entry = _mm512_mulhi_epu16(normals.component[i], all_16(light.word[k][i]));
     constexpr int kExclusiveOr = 0x96;  // of three
-    sum = _mm512_add_epi16(
-        sum, _mm512_ternarylogic_epi32(entry, normals.sign[i], all_16(light.flip[k][i]), kExclusiveOr));
+    sum = _mm512_add_epi16(sum,
+                           _mm512_ternarylogic_epi32(entry, normals.sign[i], all_16(light.flip[k][i]), kExclusiveOr));
   }
   const __m512i index = _mm512_sra_epi16(sum, count_of(request.index_shift - 1));
   return _mm512_min_epi16(_mm512_max_epi16(index, _mm512_setzero_si512()),
@@ -131,8 +130,7 @@ inline void add_light(const ShadeRequest& request, const ShadeLight& light, cons
     const __m512i level = _mm512_mulhrs_epi16(ramp, by_material(light.diffuse[c], material));
     sum[c] = _mm512_mask_add_epi16(sum[c], lit, sum[c], level);
   }
-  const __mmask32 shines =
-      _mm512_mask_cmpge_epu16_mask(lit, specular, by_material(light.first_shining, material));
+  const __mmask32 shines = _mm512_mask_cmpge_epu16_mask(lit, specular, by_material(light.first_shining, material));
   if (shines == 0) return;
   const __m512i address = _mm512_add_epi16(_mm512_sll_epi16(material, count_of(request.index_bits)), specular);
   __m512i level = looked_up(light.specular[0], address, shines);
@@ -145,12 +143,12 @@ inline void add_light(const ShadeRequest& request, const ShadeLight& light, cons
 // Three 8-bit levels a pixel from 16-bit lanes.
 inline void store(std::uint8_t* rgb, const __m512i (&levels)[3], std::size_t pixels) {
   alignas(64) static constexpr std::uint8_t kFirst[64] = {
-      0,  1,  64, 2,  3,  66, 4,  5,  68, 6,  7,  70, 8,  9,  72, 10, 11, 74, 12,  13, 76, 14,
-      15, 78, 16, 17, 80, 18, 19, 82, 20, 21, 84, 22, 23, 86, 24, 25, 88, 26,  27, 90, 28, 29,
+      0,  1,  64, 2,  3,  66, 4,  5,  68, 6,  7,  70, 8,   9,  72, 10,  11, 74, 12,  13, 76, 14,
+      15, 78, 16, 17, 80, 18, 19, 82, 20, 21, 84, 22, 23,  86, 24, 25,  88, 26, 27,  90, 28, 29,
       92, 30, 31, 94, 32, 33, 96, 34, 35, 98, 36, 37, 100, 38, 39, 102, 40, 41, 104, 42};
-  alignas(64) static constexpr std::uint8_t kSecond[64] = {43, 106, 44, 45, 108, 46, 47, 110, 48, 49, 112,
-                                                           50, 51,  114, 52, 53, 116, 54, 55, 118, 56, 57,
-                                                           120, 58, 59, 122, 60, 61, 124, 62, 63, 126};
+  alignas(64) static constexpr std::uint8_t kSecond[64] = {43,  106, 44,  45,  108, 46,  47,  110, 48,  49, 112,
+                                                           50,  51,  114, 52,  53,  116, 54,  55,  118, 56, 57,
+                                                           120, 58,  59,  122, 60,  61,  124, 62,  63,  126};
   const __m512i red_green = _mm512_or_si512(levels[0], _mm512_slli_epi16(levels[1], 8));
   const __m512i first = _mm512_permutex2var_epi8(red_green, _mm512_load_si512(kFirst), levels[2]);
   const __m512i second = _mm512_permutex2var_epi8(red_green, _mm512_load_si512(kSecond), levels[2]);
@@ -178,8 +176,7 @@ inline void shade_block(const ShadeRequest& request, const ShadeLight& first_lig
   for (std::size_t l = 1; l < request.light_count; ++l)
     add_light(request, request.lights[l], normals, material, lit, sum);
   const __m512i full = all_16(255);
-  const __mmask32 saturated =
-      _mm512_cmpgt_epu16_mask(_mm512_max_epu16(_mm512_max_epu16(sum[0], sum[1]), sum[2]), full);
+  const __mmask32 saturated = _mm512_cmpgt_epu16_mask(_mm512_max_epu16(_mm512_max_epu16(sum[0], sum[1]), sum[2]), full);
   __m512i levels[3];
   for (int c = 0; c < 3; ++c) {
     levels[c] = _mm512_mask_min_epu16(all_16(request.background[c]), seen, sum[c], full);
@@ -207,9 +204,8 @@ ShadeTotals shade(const ShadeRequest& given) {
     const __mmask32 present = left >= kBlock ? ~__mmask32{0} : (__mmask32{1} << left) - 1;
     const __m512i low = _mm512_loadu_si512(request.object + x);
     const __m512i high = _mm512_loadu_si512(request.object + x + 16);
-    const __mmask32 seen = (_mm512_test_epi32_mask(low, low) |
-                            static_cast<__mmask32>(_mm512_test_epi32_mask(high, high)) << 16) &
-                           present;
+    const __mmask32 seen =
+        (_mm512_test_epi32_mask(low, low) | static_cast<__mmask32>(_mm512_test_epi32_mask(high, high)) << 16) & present;
     if (seen == 0) {
       store(request.rgb + 3 * x, background, left);
       continue;
@@ -293,8 +289,8 @@ void add_light(const ShadeRequest& request, const ShadeLight& light, Block& bloc
     for (std::size_t k = 0; k < kBlock; ++k) {
       const std::uint32_t m = block.material[k];
       const std::uint32_t ramp = (2 * block.index[0][k] + 1) << request.diffuse_lift;
-      const std::uint32_t level = ((ramp * constants[m] + (1U << 14)) >> 15) +
-                                  specular[(m << request.index_bits) + block.index[1][k]];
+      const std::uint32_t level =
+          ((ramp * constants[m] + (1U << 14)) >> 15) + specular[(m << request.index_bits) + block.index[1][k]];
       block.sum[c][k] += block.any[k] != 0 ? level : 0;
     }
   }

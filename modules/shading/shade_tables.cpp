@@ -8,8 +8,8 @@
 namespace rastertlm::shading {
 namespace {
 
-constexpr int kHalf = 16;          // products are the high halves of those of 16-bit words
-constexpr int kRounded = 15;       // or, of words with a sign, all but the low 15 bits, rounded
+constexpr int kHalf = 16;     // products are the high halves of those of 16-bit words
+constexpr int kRounded = 15;  // or, of words with a sign, all but the low 15 bits, rounded
 constexpr unsigned kWidestMagnitude = 11;
 constexpr std::int64_t kWidestEntry = 12;  // of a dot-product table: the sum of three fits 16 bits with a sign
 constexpr std::int64_t kLevelBits = 8;
@@ -19,8 +19,8 @@ bool kernel_can(const ShadingParameters& p, unsigned magnitude_bits, unsigned pr
   const std::int64_t level_shift = p.index_bits + p.diffuse_fraction_bits + 1;
   return p.arithmetic == Arithmetic::centred && magnitude_bits <= kWidestMagnitude && p.level_bits == kLevelBits &&
          p.dot_table_output_bits <= kWidestEntry && p.materials <= static_cast<std::int64_t>(kKernelMaterials) &&
-         p.normaliser_address_bits < kHalf && (p.materials << p.index_bits) <= (std::int64_t{1} << kHalf) && product_shift <= kHalf &&
-         magnitude_bits + 1 <= product_shift && level_shift <= kRounded &&
+         p.normaliser_address_bits < kHalf && (p.materials << p.index_bits) <= (std::int64_t{1} << kHalf) &&
+         product_shift <= kHalf && magnitude_bits + 1 <= product_shift && level_shift <= kRounded &&
          kLevelBits + p.diffuse_fraction_bits <= kRounded;
 }
 
@@ -125,7 +125,8 @@ bool ShadeTables::read_light(const TableBank& bank, std::size_t light, const Sha
     std::size_t first = entries;
     for (const auto& table : levels.specular) {
       const auto begin = table.begin() + static_cast<std::ptrdiff_t>(m * entries);
-      const auto shines = std::find_if(begin, begin + static_cast<std::ptrdiff_t>(first), [](auto level) { return level != 0; });
+      const auto shines =
+          std::find_if(begin, begin + static_cast<std::ptrdiff_t>(first), [](auto level) { return level != 0; });
       first = static_cast<std::size_t>(shines - begin);
     }
     read.first_shining[m] = static_cast<std::uint16_t>(first);
@@ -141,7 +142,8 @@ void ShadeTables::read_roots(const Normaliser& normaliser, const ShadeKernels& k
   constants_.root = root_.data();
   if (kernels.roots == nullptr) return;
   RootArithmetic roots;
-  roots.scale = static_cast<float>(normaliser.root_scale() / std::sqrt(std::ldexp(1.0, static_cast<int>(constants_.root_shift))));
+  roots.scale =
+      static_cast<float>(normaliser.root_scale() / std::sqrt(std::ldexp(1.0, static_cast<int>(constants_.root_shift))));
   roots.limit = normaliser.largest_root();
   std::vector<std::uint32_t> computed(words + kHalf);
   kernels.roots(roots, words, computed.data());

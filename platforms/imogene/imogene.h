@@ -31,7 +31,7 @@ struct Options {
   // line; none where empty.
   stream::Observer<stream::FragmentPayload> decided = {};
   stream::Observer<stream::RgbPayload> shaded = {};
-  bool observe = true;            // frames have all their planes; without, their levels alone
+  bool observe = true;  // frames have all their planes; without, their levels alone
 };
 
 // What a video frame shows, as the hosts left it: a displayed frame, or one of its two fields where it is interlaced.

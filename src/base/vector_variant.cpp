@@ -19,8 +19,8 @@ const char* name_of(VectorVariant variant) {
 
 std::vector<VectorVariant> available_vector_variants() {
   std::vector<VectorVariant> available{VectorVariant::baseline};
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
-                    __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                    __builtin_cpu_supports("popcnt");
   if (!avx2) return available;
   available.push_back(VectorVariant::avx2);
   const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
@@ -39,8 +39,7 @@ VectorVariant vector_variant(const std::string& wanted) {
     if (wanted == name_of(variant)) return variant;
     names += (names.empty() ? "" : ", ") + std::string(name_of(variant));
   }
-  throw InputError(
-      Diagnostic{"", 0, "RASTERTLM_VECTOR", "is \"" + wanted + "\"; this processor has: " + names});
+  throw InputError(Diagnostic{"", 0, "RASTERTLM_VECTOR", "is \"" + wanted + "\"; this processor has: " + names});
 }
 
 VectorVariant vector_variant() {

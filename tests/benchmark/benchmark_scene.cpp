@@ -49,11 +49,11 @@ void add_triangle(Random& random, double radius, scene::Mesh& mesh) {
   const double middle = random.between(-0.8 * kDepth, 0.8 * kDepth);
   for (int i = 0; i < 3; ++i) {
     const double angle = (turn + 120.0 * i) / kRadian;
-    const double depth = std::clamp(middle + random.between(-1.0, 1.0) * std::min(radius, 0.2 * kDepth), -kDepth, kDepth);
+    const double depth =
+        std::clamp(middle + random.between(-1.0, 1.0) * std::min(radius, 0.2 * kDepth), -kDepth, kDepth);
     const double scale = (kDistance + depth) / kDistance;  // on the screen it has its size at every depth
     mesh.positions.emplace_back((x + radius * std::cos(angle)) * scale, depth, (z + radius * std::sin(angle)) * scale);
-    mesh.normals.push_back(
-        glm::normalize(glm::dvec3(random.between(-0.6, 0.6), -1.0, random.between(-0.6, 0.6))));
+    mesh.normals.push_back(glm::normalize(glm::dvec3(random.between(-0.6, 0.6), -1.0, random.between(-0.6, 0.6))));
   }
   mesh.triangles.push_back({first, first + 1, first + 2});
   mesh.material.push_back(static_cast<std::uint16_t>(mesh.triangles.size() % 4));

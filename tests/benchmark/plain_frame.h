@@ -18,9 +18,9 @@
 
 namespace plain {
 
-inline constexpr int kSide = 512;       // columns and lines
+inline constexpr int kSide = 512;  // columns and lines
 inline constexpr int kMaterials = 16;
-inline constexpr int kIndices = 1024;   // of a level table, a material
+inline constexpr int kIndices = 1024;  // of a level table, a material
 
 struct Corner {
   double position[3];
@@ -41,12 +41,12 @@ struct Pose {
 };
 // As the shading processor's memories hold them; loaded before the clock starts.
 struct Tables {
-  std::vector<std::uint16_t> inverse_root;   // 2^14 words of 12 bits
-  std::uint32_t light_word[2][3];            // 0..2048: of N.L and N.H
-  bool negative[2][3];                       // and their signs
-  std::vector<std::uint8_t> diffuse[3];      // 16 x 1024 levels a channel
-  std::vector<std::uint8_t> specular;        // 16 x 1024 levels
-  std::vector<std::uint8_t> ambient;         // 3 a material
+  std::vector<std::uint16_t> inverse_root;  // 2^14 words of 12 bits
+  std::uint32_t light_word[2][3];           // 0..2048: of N.L and N.H
+  bool negative[2][3];                      // and their signs
+  std::vector<std::uint8_t> diffuse[3];     // 16 x 1024 levels a channel
+  std::vector<std::uint8_t> specular;       // 16 x 1024 levels
+  std::vector<std::uint8_t> ambient;        // 3 a material
   std::uint8_t background[3];
 };
 
@@ -187,8 +187,8 @@ class FrameLoop final : public Loop {
     }
     for (std::size_t m = 0; m < kMaterials; ++m)
       ambient_[m] = tables.ambient[3 * m] | tables.ambient[3 * m + 1] << 8 | tables.ambient[3 * m + 2] << 16;
-    background_ = tables.background[0] | std::uint32_t{tables.background[1]} << 8 |
-                  std::uint32_t{tables.background[2]} << 16;
+    background_ =
+        tables.background[0] | std::uint32_t{tables.background[1]} << 8 | std::uint32_t{tables.background[2]} << 16;
   }
 
   bool set_up(const Pose& pose) {
@@ -272,7 +272,7 @@ class FrameLoop final : public Loop {
     const double x2 = static_cast<double>(e2x) * per_pixel, y2 = static_cast<double>(e2y) * per_pixel;
     const double w1 = static_cast<double>(ax * e2y - ay * e2x) * half;
     const double w2 = static_cast<double>(ay * e1x - ax * e1y) * half;
-    const auto fit = [&](const double (&v)[3]) {
+    const auto fit = [&](const double(&v)[3]) {
       const double d1 = v[1] - v[0], d2 = v[2] - v[0];
       const std::int64_t a = rounded(d1 * y2 - d2 * y1);
       const std::int64_t b = rounded(d2 * x1 - d1 * x2);
@@ -321,9 +321,8 @@ class FrameLoop final : public Loop {
       const Drawn& d = drawn_[t];
       const auto mark = static_cast<std::uint32_t>(t + 1);
 #if defined(__AVX512BW__)
-      const __m512i ramp = _mm512_mullo_epi32(
-          _mm512_set1_epi32(static_cast<int>(d.depth.a)),
-          _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+      const __m512i ramp = _mm512_mullo_epi32(_mm512_set1_epi32(static_cast<int>(d.depth.a)),
+                                              _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
       const __m512i marks = _mm512_set1_epi32(static_cast<int>(mark));
 #endif
       for (std::int32_t y = d.first; y <= d.last; y += 8) {
@@ -380,7 +379,8 @@ class FrameLoop final : public Loop {
     };
 #if defined(__AVX512BW__)
     for (std::int32_t x = 0; x < kSide; x += 16) {
-      std::uint32_t changes = _mm512_cmpneq_epu32_mask(_mm512_loadu_si512(winner + x), _mm512_loadu_si512(winner + x + 1));
+      std::uint32_t changes =
+          _mm512_cmpneq_epu32_mask(_mm512_loadu_si512(winner + x), _mm512_loadu_si512(winner + x + 1));
       if (x + 16 == kSide) changes |= 0x8000U;
       for (; changes != 0; changes &= changes - 1) run(x + __builtin_ctz(changes) + 1);
     }
@@ -397,10 +397,10 @@ class FrameLoop final : public Loop {
           plane.a * static_cast<std::uint32_t>(begin) + plane.b * static_cast<std::uint32_t>(y) + plane.c;
       std::uint32_t* normal = normal_[r].data();
 #if defined(__AVX512BW__)
-      __m512i words = _mm512_add_epi32(
-          _mm512_set1_epi32(static_cast<int>(word)),
-          _mm512_mullo_epi32(_mm512_set1_epi32(static_cast<int>(plane.a)),
-                             _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)));
+      __m512i words =
+          _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(word)),
+                           _mm512_mullo_epi32(_mm512_set1_epi32(static_cast<int>(plane.a)),
+                                              _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)));
       const __m512i step = _mm512_set1_epi32(static_cast<int>(16 * plane.a));
       for (std::int32_t x = begin; x < end; x += 16, words = _mm512_add_epi32(words, step))
         _mm512_storeu_si512(normal + x, words);
@@ -438,8 +438,7 @@ class FrameLoop final : public Loop {
     for (int i = 0; i < 3; ++i) {
       r.m[i] = _mm512_srlv_epi32(r.m[i], shift);
       any = _mm512_or_si512(any, r.m[i]);
-      squares = _mm512_add_epi32(squares,
-                                 _mm512_madd_epi16(r.m[i], _mm512_add_epi32(r.m[i], _mm512_set1_epi32(1))));
+      squares = _mm512_add_epi32(squares, _mm512_madd_epi16(r.m[i], _mm512_add_epi32(r.m[i], _mm512_set1_epi32(1))));
     }
     r.zero = _mm512_cmpeq_epi32_mask(any, _mm512_setzero_si512());
     r.root = _mm512_and_si512(_mm512_i32gather_epi32(_mm512_srli_epi32(squares, 10), root_.data(), 2),
@@ -489,10 +488,10 @@ class FrameLoop final : public Loop {
         const __m512i background = _mm512_set1_epi32(static_cast<int>(background_));
         __m512i levels = background;
         if (seen != 0) {
-          const __m512i dl = _mm512_mask_i32gather_epi32(background, seen, _mm512_add_epi32(base, d[half]),
-                                                         diffuse_.data(), 4);
-          const __m512i sl = _mm512_mask_i32gather_epi32(zero, seen, _mm512_add_epi32(base, s[half]),
-                                                         specular_.data(), 4);
+          const __m512i dl =
+              _mm512_mask_i32gather_epi32(background, seen, _mm512_add_epi32(base, d[half]), diffuse_.data(), 4);
+          const __m512i sl =
+              _mm512_mask_i32gather_epi32(zero, seen, _mm512_add_epi32(base, s[half]), specular_.data(), 4);
           levels = _mm512_adds_epu8(dl, sl);
           const __mmask16 dark = (half == 0 ? low.zero : high.zero) & seen;
           if (dark != 0)

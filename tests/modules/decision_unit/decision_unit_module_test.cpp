@@ -70,8 +70,8 @@ struct Machine {
   DecisionUnit core{DecisionUnitParameters{}, kNothing};
   stream::Link link{"decision unit to shading", 64, Clock::from_period_ns("pixel clock", 60.0)};
   object_processor::LineComposer composer{object_processor::ObjectProcessorParameters{}, kColumns};
-  DecisionUnitModule unit{
-      "decision_unit", core, composer, kColumns, 3, Clock::from_period_ns("pixel clock", 60.0), Cycles(7), link};
+  DecisionUnitModule unit{"decision_unit", core, composer, kColumns, 3, Clock::from_period_ns("pixel clock", 60.0),
+                          Cycles(7),       link};
   std::deque<Board> boards;
   Shading shading{"shading"};
 

@@ -76,7 +76,7 @@ inline ObjectBoard loaded_board(const Machine& machine, Visit visit = Visit::nee
 }
 
 inline void compare_line(const Machine& machine, const std::vector<Pixel>& picture, std::uint32_t line,
-                  const frame::FragmentLine& out) {
+                         const frame::FragmentLine& out) {
   const Prenormaliser prenormalise(machine.parameters);
   for (std::uint32_t column = 0; column < machine.columns; ++column) {
     const Pixel& wanted = picture[std::size_t{line} * machine.columns + column];

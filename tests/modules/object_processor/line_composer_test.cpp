@@ -1,5 +1,5 @@
-// Do spans, compared and resolved by every vector kernel that this processor has, show and count what comparing pixel by
-// pixel does?
+// Do spans, compared and resolved by every vector kernel that this processor has, show and count what comparing pixel
+// by pixel does?
 #include "modules/object_processor/line_composer.h"
 
 #include <gtest/gtest.h>
@@ -64,8 +64,7 @@ void compare_lines(const Machine& machine, VectorVariant variant, Source& source
       RC_ASSERT(covered[k]->seen_pixels == in_pixels[k].counters().fragments_kept - before);
     }
   }
-  for (std::size_t k = 0; k < in_pixels.size(); ++k)
-    compare_counters(in_spans[k].counters(), in_pixels[k].counters());
+  for (std::size_t k = 0; k < in_pixels.size(); ++k) compare_counters(in_spans[k].counters(), in_pixels[k].counters());
 }
 
 RC_GTEST_PROP(LineComposer, ShowsAndCountsWhatPixelsDo, (std::uint32_t seed)) {
