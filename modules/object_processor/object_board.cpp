@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
+#include <iterator>
 
 #include "src/base/errors.h"
 
@@ -163,7 +163,8 @@ std::uint64_t ObjectBoard::memory_bytes() const {
   const std::uint64_t a_slot = sizeof(Loading) + sizeof(Edges) + sizeof(frame::FragmentSource) + sizeof(Borders) +
                                sizeof(Interval) + 2 * sizeof(std::uint8_t);
   const std::uint64_t indices = changes_.capacity() + bucket_begin_.capacity() + bucket_slots_.capacity() +
-                                touched_by_.capacity() + active_.capacity() + merged_.capacity();
+                                touched_by_.capacity() + active_.capacity() + merged_.capacity() +
+                                newcomers_.capacity();
   return loading_.capacity() * a_slot + indices * sizeof(std::uint32_t) +
          spans_.capacity() * sizeof(frame::CoveredSpan) + std::uint64_t{columns_} * 4 * sizeof(std::uint32_t);
 }
@@ -224,28 +225,24 @@ void ObjectBoard::check_line(std::uint32_t line, std::size_t columns) const {
 }
 
 // The slots that can touch a line of the band, in order of their numbers: those that could touch the last band and
-// last, and those that begin here.
+// last, and those that began since.
 void ObjectBoard::select_band(std::uint32_t line) {
   const std::uint32_t band = line / kBandLines;
   if (band == current_band_) return;
   const auto first = static_cast<std::int32_t>(band * kBandLines);
   const auto last = static_cast<std::int32_t>(std::min(lines_, (band + 1) * kBandLines));
   merged_.clear();
-  if (current_band_ != kNone && band == current_band_ + 1) {
-    std::uint32_t next = bucket_begin_[band];
-    const std::uint32_t end = bucket_begin_[band + 1];
-    for (const std::uint32_t slot : active_) {
-      if (intervals_[slot].end <= first) continue;
-      while (next < end && bucket_slots_[next] < slot) merged_.push_back(bucket_slots_[next++]);
-      merged_.push_back(slot);
-    }
-    while (next < end) merged_.push_back(bucket_slots_[next++]);
-  } else if (band == 0) {
-    merged_.assign(bucket_slots_.begin(), bucket_slots_.begin() + bucket_begin_[1]);
-  } else {
+  if (current_band_ == kNone || band < current_band_) {
     for (std::uint32_t slot = 0; slot < intervals_.size(); ++slot)
       if (!intervals_[slot].empty() && intervals_[slot].begin < last && intervals_[slot].end > first)
         merged_.push_back(slot);
+  } else {
+    newcomers_.clear();
+    for (std::uint32_t next = bucket_begin_[current_band_ + 1]; next < bucket_begin_[band + 1]; ++next)
+      if (intervals_[bucket_slots_[next]].end > first) newcomers_.push_back(bucket_slots_[next]);
+    if (band > current_band_ + 1) std::sort(newcomers_.begin(), newcomers_.end());  // those of one band are in order
+    std::erase_if(active_, [&](std::uint32_t slot) { return intervals_[slot].end <= first; });
+    std::merge(active_.begin(), active_.end(), newcomers_.begin(), newcomers_.end(), std::back_inserter(merged_));
   }
   active_.swap(merged_);
   current_band_ = band;

@@ -154,8 +154,9 @@ class ObjectBoard {
   std::vector<std::uint32_t> bucket_slots_;  // in order of their numbers within a band
   std::vector<std::uint32_t> touched_by_;    // a line: how many slots can touch it
 
-  std::vector<std::uint32_t> active_;  // slots that can touch a line of current_band_, in order of their numbers
-  std::vector<std::uint32_t> merged_;  // the next active_, in the making
+  std::vector<std::uint32_t> active_;     // slots that can touch a line of current_band_, in order of their numbers
+  std::vector<std::uint32_t> merged_;     // the next active_, in the making
+  std::vector<std::uint32_t> newcomers_;  // of them, those that begin after the band before
   std::uint32_t current_band_ = kNone;
   std::vector<frame::CoveredSpan> spans_;  // of the band that is ready
 

@@ -77,7 +77,8 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
       resident_(resident_scene(machine, scene)),
       animation_(resident_, machine.host.send == host::Send::all),
       decision_(machine.decision_unit, depth_of_nothing(machine)),
-      composer_(machine.object_processor, static_cast<std::size_t>(machine.video.columns), options.observe),
+      composer_(machine.object_processor, static_cast<std::size_t>(machine.video.columns),
+                options.observe || options.decided || options.shaded),
       shader_(machine.shading, machine.object_processor.normal_bits, banks(machine)) {
   if (sc_core::sc_get_time_resolution() != sc_core::sc_time(1, sc_core::SC_PS))
     throw ModelError("platform", 0, "SystemC's time resolution is not 1 ps");
@@ -275,9 +276,12 @@ void Imogene::build_shading() {
 }
 
 void Imogene::build_video() {
-  const video::FrameAssembly::Format format{
-      static_cast<std::size_t>(machine_.video.columns), static_cast<std::size_t>(machine_.video.lines),
-      static_cast<unsigned>(machine_.object_processor.normal_bits), depth_of_nothing(machine_), options_.observe};
+  const video::FrameAssembly::Format format{static_cast<std::size_t>(machine_.video.columns),
+                                            static_cast<std::size_t>(machine_.video.lines),
+                                            timing_.fields,
+                                            static_cast<unsigned>(machine_.object_processor.normal_bits),
+                                            depth_of_nothing(machine_),
+                                            options_.observe};
   video_output_ = std::make_unique<video::VideoOutputModule>(
       "video_output", format,
       [this](std::uint64_t frame, std::size_t field, const frame::Frame& pixels, std::uint64_t last_line_ps) {
