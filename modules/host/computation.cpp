@@ -112,9 +112,11 @@ void Computation::transform(Triangle& triangle) {
   triangle.needs_guard = false;
   for (std::size_t i = 0; i < 3 && !triangle.needs_guard; ++i) {
     const std::uint32_t corner = triangle.corner[i];
+    geometry::ScreenVertex<double> screen;
     triangle.needs_guard = !on_screen(
         set_up::transform_vertex<double>(mesh.positions[corner], mesh.normals[corner], object_to_clip, normal_to_eye),
-        format_.grids.on_screen, format_.viewport, triangle.screen[i]);
+        format_.grids.on_screen, format_.viewport, screen);
+    triangle.screen[i] = {screen.x, screen.y, screen.z, screen.normal};
   }
   if (!cut_.empty()) cut_.erase(static_cast<std::uint32_t>(&triangle - triangles_.data()));
   if (triangle.needs_guard)
@@ -211,20 +213,27 @@ void Computation::fit(Triangle& triangle, const geometry::SnapGrid& grid) {
   triangle.loaded = false;
 }
 
+// 1 / w, which the words do not need, is not kept.
+template <class T>
+set_up::ScreenTriangle<T> Computation::on_screen_again(const std::array<Corner, 3>& corners) {
+  set_up::ScreenTriangle<T> screen;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Corner& c = corners[i];
+    screen[i] = {c.x, c.y, c.z, 1.0, {c.normal.x, c.normal.y, c.normal.z}};
+  }
+  return screen;
+}
+
 set_up::SetUpResult Computation::fit_words(const Triangle& triangle, const geometry::SnapGrid& grid) {
   if (format_.words.edges == set_up::EdgeForm::snapped) {
-    const auto result =
-        set_up::set_up_triangle<double>(triangle.screen, triangle.material, triangle.two_sided, grid, format_.words);
+    const auto result = set_up::set_up_triangle<double>(on_screen_again<double>(triangle.screen), triangle.material,
+                                                        triangle.two_sided, grid, format_.words);
     operations_ += paths_.of(result.outcome);
     return result;
   }
   const CountedStep step(operations_);
-  set_up::ScreenTriangle<Number> screen;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const geometry::ScreenVertex<double>& v = triangle.screen[i];
-    screen[i] = {v.x, v.y, v.z, v.inverse_w, {v.normal.x, v.normal.y, v.normal.z}};
-  }
-  return set_up::set_up_triangle<Number>(screen, triangle.material, triangle.two_sided, grid, format_.words);
+  return set_up::set_up_triangle<Number>(on_screen_again<Number>(triangle.screen), triangle.material,
+                                         triangle.two_sided, grid, format_.words);
 }
 
 void Computation::load_pieces() {

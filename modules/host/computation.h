@@ -3,6 +3,7 @@
 // grid; told the grid, it fits the coefficients. Operations are counted by the code that computes (path_counts.h).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -79,6 +80,15 @@ class Computation {
   using Number = geometry::Counted<double>;
   enum class Fate : std::uint8_t { unknown, drawn, back_face, degenerate, outside };
 
+  struct Corner {  // on the screen
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+    glm::dvec3 normal{};
+  };
+  template <class T>
+  static set_up::ScreenTriangle<T> on_screen_again(const std::array<Corner, 3>& corners);
+
   struct Triangle {
     std::uint32_t object;  // of the machine: the triangle's number in the scene, from 0
     std::uint32_t mesh;    // object of the scene
@@ -90,7 +100,7 @@ class Computation {
     bool renewed = false;  // in this frame
     bool loaded = false;   // its slot is not parked
     Fate fate = Fate::unknown;
-    set_up::ScreenTriangle<double> screen{};  // where it needs no guard band
+    std::array<Corner, 3> screen{};  // where it needs no guard band
   };
 
   void prefetch(const Triangle& triangle) const;
