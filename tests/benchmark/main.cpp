@@ -1,9 +1,12 @@
 // Times the simulation beside a plain loop: see README.md.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <span>
+#include <stdexcept>
+#include <string>
 #include <systemc>
 
 #include "tests/benchmark/frame_pairs.h"
@@ -72,27 +75,57 @@ std::vector<Case> cases_of(const std::string& series, const Case& given) {
   return cases;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app("Times simulated frames beside a plain loop that draws the same; pictures must be equal");
-  Case given;
-  std::vector<std::string> series{"ratio"};
-  app.add_option("series", series, "ratio, processors, pixels, triangles, memory, or one (as the options say)")
-      ->capture_default_str();
-  app.add_option("--pairs", given.pairs, "frames timed of each")->capture_default_str();
-  app.add_option("--triangles", given.triangles)->capture_default_str();
-  app.add_option("--processors", given.processors, "a multiple of 8")->capture_default_str();
-  app.add_option("--pixels", given.pixels, "that the triangles cover together")->capture_default_str();
-  app.add_flag("!--no-plain", given.plain, "the simulation alone");
-  app.add_flag("--pipeline", given.pipeline, "the decision unit as a pipeline");
-  CLI11_PARSE(app, argc, argv);
+constexpr const char* kUsage = R"(benchmark_frame [ratio|processors|pixels|triangles|memory|one]... [options]
+  Times simulated frames beside a plain loop that draws the same; exit code 1 where the pictures differ.
+  --pairs N        frames timed of each (30)
+  one: --triangles N (64)  --processors N, a multiple of 8 (1024)  --pixels N that the triangles cover together (393216)
+  --no-plain       the simulation alone
+  --pipeline       the decision unit as a pipeline
+)";
 
+struct Arguments {
+  std::vector<std::string> series;
+  Case given;
+};
+
+Arguments read(std::span<char*> words) {
+  Arguments arguments;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string word = words[i];
+    const auto number = [&]() -> std::size_t {
+      if (i + 1 == words.size()) throw std::invalid_argument(word + " needs a number");
+      return std::stoul(words[++i]);
+    };
+    if (word == "--pairs") {
+      arguments.given.pairs = number();
+    } else if (word == "--triangles") {
+      arguments.given.triangles = number();
+    } else if (word == "--processors") {
+      arguments.given.processors = number();
+    } else if (word == "--pixels") {
+      arguments.given.pixels = static_cast<double>(number());
+    } else if (word == "--no-plain") {
+      arguments.given.plain = false;
+    } else if (word == "--pipeline") {
+      arguments.given.pipeline = true;
+    } else if (cases_of(word, {}).empty()) {
+      throw std::invalid_argument("unknown argument " + word);
+    } else {
+      arguments.series.push_back(word);
+    }
+  }
+  if (arguments.series.empty()) arguments.series.emplace_back("ratio");
+  return arguments;
+}
+
+int run(const Arguments& arguments) {
   fmt::print("Processor: {}; plain loop for {}. Milliseconds a frame, medians of {} interleaved pairs.\n",
-             processor_name(), plain::best_variant(), given.pairs);
+             processor_name(), plain::best_variant(), arguments.given.pairs);
   bool good = true;
-  for (const std::string& name : series) {
+  for (const std::string& name : arguments.series) {
     fmt::print("\n{}\n", name);
     print_head();
-    for (const Case& wanted : cases_of(name, given)) good = print_row(wanted) && good;
+    for (const Case& wanted : cases_of(name, arguments.given)) good = print_row(wanted) && good;
   }
   return good ? 0 : 1;
 }
@@ -102,4 +135,11 @@ int run(int argc, char** argv) {
 
 int sc_main(int, char**) { return 0; }
 
-int main(int argc, char** argv) { return rastertlm::benchmark::run(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return rastertlm::benchmark::run(rastertlm::benchmark::read(std::span(argv, argv + argc).subspan(1)));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n{}", error.what(), rastertlm::benchmark::kUsage);
+    return 2;
+  }
+}
