@@ -7,7 +7,7 @@
 
 #include "platforms/imogene/machine.h"
 #include "src/scene/scene.h"
-#include "tests/benchmark/plain_frame.h"
+#include "tests/benchmark/plain_frame.inc"
 
 namespace rastertlm::benchmark {
 

@@ -1,2 +1,2 @@
 #define PLAIN_VARIANT avx512
-#include "tests/benchmark/plain_frame.h"
+#include "tests/benchmark/plain_frame.inc"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/benchmark/plain_frame.h"
+#include "tests/benchmark/plain_frame.inc"
 
 namespace plain {
 

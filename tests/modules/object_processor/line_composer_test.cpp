@@ -51,6 +51,7 @@ void compare_lines(const Machine& machine, VectorVariant variant, Source& source
   const std::uint32_t stride = source.below(3) == 0 ? 5 : 1;
   for (std::uint32_t line = 0; line < machine.lines; line += stride) {
     std::vector<const frame::CoveredLine*> covered;
+    covered.reserve(in_spans.size());
     for (ObjectBoard& board : in_spans) covered.push_back(&board.cover_line(line));
     std::uint64_t wanted = 0;
     for (std::uint32_t column = 0; column < machine.columns; ++column)
