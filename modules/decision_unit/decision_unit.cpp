@@ -84,6 +84,16 @@ void DecisionUnit::merge(std::span<frame::FragmentLine* const> lines) {
   counters_.fragments_hidden += in - kept;
 }
 
+void DecisionUnit::merge(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
+                         object_processor::LineComposer& composer, frame::FragmentLine& out) {
+  std::uint64_t in = 0;
+  for (const frame::CoveredLine* board : boards) in += board->seen_pixels;
+  const std::uint64_t kept = composer.compose(boards, line, out);
+  counters_.fragments_in += in;
+  counters_.fragments_kept += kept;
+  counters_.fragments_hidden += in - kept;
+}
+
 std::uint64_t tree_levels(std::uint64_t processors) { return processors < 2 ? 0 : bit_length(processors - 1); }
 
 Cycles latency(Topology topology, std::uint64_t processors, Cycles comparator) {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "modules/decision_unit/parameters.h"
+#include "modules/object_processor/line_composer.h"
 #include "src/base/units.h"
 #include "src/frame/scan_line.h"
 
@@ -29,6 +30,11 @@ class DecisionUnit {
   // lines have equally many columns; what the others hold afterwards is not specified. Only covered intervals are
   // looked at.
   void merge(std::span<frame::FragmentLine* const> lines);
+
+  // The same where the boards' lines are spans: into `out`, of equally many columns. The nearest and the counts do not
+  // depend on the order of comparison, so tree and chain are one.
+  void merge(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
+             object_processor::LineComposer& composer, frame::FragmentLine& out);
 
   const DecisionCounters& counters() const { return counters_; }
 

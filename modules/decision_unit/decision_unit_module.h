@@ -22,21 +22,29 @@ class DecisionUnitModule : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<DecisionUnitModule, stream::kNoBusWidth, stream::FragmentProtocol> out;
 
   // `latency`: from the word of a pixel leaving the boards to its decision, in cycles of `clock`.
-  DecisionUnitModule(const sc_core::sc_module_name& name, DecisionUnit& unit, std::size_t boards, const Clock& clock,
-                     Cycles latency, stream::Link& link);
+  // `composer` makes pixels of lines that come as spans; boards send either all spans or all pixels.
+  DecisionUnitModule(const sc_core::sc_module_name& name, DecisionUnit& unit, object_processor::LineComposer& composer,
+                     std::size_t columns, std::size_t boards, const Clock& clock, Cycles latency, stream::Link& link);
 
   std::uint64_t lines_sent() const { return lines_sent_; }
 
  private:
   void receive(int board, stream::FragmentPayload& payload, sc_core::sc_time& delay);
+  void gather(std::size_t board, stream::FragmentPayload& payload);
+  stream::LinePool::Handle merged();
 
   DecisionUnit& unit_;
+  object_processor::LineComposer& composer_;
   sc_core::sc_time latency_;
   stream::Link& link_;
-  std::vector<stream::LinePool::Handle> lines_;  // of the line being gathered, by board
+  stream::LinePool pool_;
+  // Of the line being gathered, by board: pixels or spans.
+  std::vector<stream::LinePool::Handle> lines_;
   std::vector<frame::FragmentLine*> pointers_;
+  std::vector<const frame::CoveredLine*> covered_;
   std::size_t gathered_ = 0;
   std::size_t line_ = 0;
+  bool in_pixels_ = true;
   stream::FragmentPayload payload_;
   std::uint64_t lines_sent_ = 0;
 };

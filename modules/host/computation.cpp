@@ -11,18 +11,7 @@ using set_up::Outcome;
 
 namespace {
 
-// left * right, for an object's matrix and the camera's: charged to the unit that needs it.
-template <class T>
-glm::dmat4 product(const glm::dmat4& left, const glm::dmat4& right) {
-  glm::dmat4 result;
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row) {
-      T sum = T(left[0][row]) * T(right[column][0]);
-      for (int k = 1; k < 4; ++k) sum += T(left[k][row]) * T(right[column][k]);
-      result[column][row] = sum.value();
-    }
-  return result;
-}
+constexpr std::size_t kAhead = 4;  // triangles
 
 // Adds what is counted while it lives to `sum`.
 class CountedStep {
@@ -49,7 +38,10 @@ TriangleCounts& TriangleCounts::operator+=(const TriangleCounts& other) {
 }
 
 Computation::Computation(const ResidentScene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners)
-    : scene_(scene), format_(format), guarded_frame_(geometry::frame_grid(format.grids, true, format.viewport)) {
+    : scene_(scene),
+      format_(format),
+      paths_(count_paths()),
+      guarded_frame_(geometry::frame_grid(format.grids, true, format.viewport)) {
   std::vector<std::size_t> first_object;  // number of the first triangle of each mesh
   std::size_t count = 0;
   for (const ResidentObject& object : scene.objects) {
@@ -77,18 +69,22 @@ Computation::Computation(const ResidentScene& scene, const MachineFormat& format
   for (std::uint32_t slot = 0; slot < format.slots; ++slot)
     if (!owned[slot]) free_slots_.push_back(slot);
   object_to_clip_.resize(scene.objects.size());
+  loads_.reserve(triangles_.size());
 }
 
 Survey Computation::survey(const FrameWork& work) {
-  const CountedStep step(operations_);
   work_ = &work;
   std::vector<std::uint8_t> has_matrix(scene_.objects.size(), 0);
   Survey survey;
-  for (Triangle& triangle : triangles_) {
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    Triangle& triangle = triangles_[i];
+    if (i + kAhead < triangles_.size()) prefetch(triangles_[i + kAhead]);
     triangle.renewed = work.renew[triangle.mesh] != 0;
     if (triangle.renewed) {
       if (has_matrix[triangle.mesh] == 0) {
-        object_to_clip_[triangle.mesh] = product<Number>(work.pose.eye_to_clip, work.pose.object_to_eye[triangle.mesh]);
+        object_to_clip_[triangle.mesh] =
+            matrix_product<double>(work.pose.eye_to_clip, work.pose.object_to_eye[triangle.mesh]);
+        operations_ += paths_.matrix;
         has_matrix[triangle.mesh] = 1;
       }
       transform(triangle);
@@ -99,23 +95,51 @@ Survey Computation::survey(const FrameWork& work) {
   return survey;
 }
 
+// A unit's triangles lie apart in the mesh: what the next ones need is asked for while this one is computed.
+void Computation::prefetch(const Triangle& triangle) const {
+  const geometry::Mesh& mesh = *scene_.objects[triangle.mesh].mesh;
+  for (const std::uint32_t corner : triangle.corner) {
+    __builtin_prefetch(&mesh.positions[corner]);
+    __builtin_prefetch(&mesh.normals[corner]);
+  }
+}
+
+// With plain numbers as long as no corner needs the guard band; otherwise from the start again, counting.
 void Computation::transform(Triangle& triangle) {
   const geometry::Mesh& mesh = *scene_.objects[triangle.mesh].mesh;
   const glm::dmat3& normal_to_eye = work_->pose.normal_to_eye[triangle.mesh];
-  geometry::ClipTriangle<Number> corners;
+  const glm::dmat4& object_to_clip = object_to_clip_[triangle.mesh];
   triangle.needs_guard = false;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3 && !triangle.needs_guard; ++i) {
     const std::uint32_t corner = triangle.corner[i];
-    corners[i] = set_up::transform_vertex<Number>(mesh.positions[corner], mesh.normals[corner],
-                                                  object_to_clip_[triangle.mesh], normal_to_eye);
-    if (triangle.needs_guard) continue;
-    triangle.needs_guard = !geometry::within_depth(corners[i]);
-    if (triangle.needs_guard) continue;
-    triangle.screen[i] = geometry::to_screen(corners[i], format_.viewport);
-    triangle.needs_guard = !geometry::within_samples(triangle.screen[i], format_.grids.on_screen, format_.viewport);
+    geometry::ScreenVertex<double> screen;
+    triangle.needs_guard = !on_screen(
+        set_up::transform_vertex<double>(mesh.positions[corner], mesh.normals[corner], object_to_clip, normal_to_eye),
+        format_.grids.on_screen, format_.viewport, screen);
+    triangle.screen[i] = {screen.x, screen.y, screen.z, screen.normal};
   }
-  cut_.erase(static_cast<std::uint32_t>(&triangle - triangles_.data()));
-  if (triangle.needs_guard) cut(triangle, corners);
+  if (!cut_.empty()) cut_.erase(static_cast<std::uint32_t>(&triangle - triangles_.data()));
+  if (triangle.needs_guard)
+    transform_counted(triangle);
+  else
+    operations_ += paths_.three_inside;
+}
+
+void Computation::transform_counted(Triangle& triangle) {
+  const CountedStep step(operations_);
+  const geometry::Mesh& mesh = *scene_.objects[triangle.mesh].mesh;
+  const glm::dmat3& normal_to_eye = work_->pose.normal_to_eye[triangle.mesh];
+  const glm::dmat4& object_to_clip = object_to_clip_[triangle.mesh];
+  geometry::ClipTriangle<Number> corners;
+  geometry::ScreenVertex<Number> screen{};
+  bool inside = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners[i] = set_up::transform_vertex<Number>(mesh.positions[triangle.corner[i]], mesh.normals[triangle.corner[i]],
+                                                  object_to_clip, normal_to_eye);
+    // Once one needs the band, the others are only transformed.
+    inside = inside && on_screen(corners[i], format_.grids.on_screen, format_.viewport, screen);
+  }
+  cut(triangle, corners);
 }
 
 // A triangle that needs the guard band settles the frame's grid, so its pieces can be fitted at once: what of them is
@@ -152,8 +176,7 @@ void Computation::allocate(Survey& survey) {
 }
 
 const std::vector<Load>& Computation::set_up(bool guarded, const std::vector<Piece>& adopted) {
-  const CountedStep step(operations_);
-  step_start_ = operation_counts;
+  step_start_ = operations_;
   loads_.clear();
   const bool grid_changed = first_ || guarded != last_guarded_;
   const geometry::SnapGrid& grid = guarded ? format_.grids.guarded : format_.grids.on_screen;
@@ -176,8 +199,7 @@ void Computation::fit(Triangle& triangle, const geometry::SnapGrid& grid) {
       return;
     }
   } else {
-    const auto result =
-        set_up::set_up_triangle(triangle.screen, triangle.material, triangle.two_sided, grid, format_.words);
+    const set_up::SetUpResult result = fit_words(triangle, grid);
     triangle.fate = result.outcome == Outcome::drawn       ? Fate::drawn
                     : result.outcome == Outcome::back_face ? Fate::back_face
                                                            : Fate::degenerate;
@@ -189,6 +211,29 @@ void Computation::fit(Triangle& triangle, const geometry::SnapGrid& grid) {
   }
   if (triangle.loaded) park(triangle.slot);
   triangle.loaded = false;
+}
+
+// 1 / w, which the words do not need, is not kept.
+template <class T>
+set_up::ScreenTriangle<T> Computation::on_screen_again(const std::array<Corner, 3>& corners) {
+  set_up::ScreenTriangle<T> screen;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Corner& c = corners[i];
+    screen[i] = {c.x, c.y, c.z, 1.0, {c.normal.x, c.normal.y, c.normal.z}};
+  }
+  return screen;
+}
+
+set_up::SetUpResult Computation::fit_words(const Triangle& triangle, const geometry::SnapGrid& grid) {
+  if (format_.words.edges == set_up::EdgeForm::snapped) {
+    const auto result = set_up::set_up_triangle<double>(on_screen_again<double>(triangle.screen), triangle.material,
+                                                        triangle.two_sided, grid, format_.words);
+    operations_ += paths_.of(result.outcome);
+    return result;
+  }
+  const CountedStep step(operations_);
+  return set_up::set_up_triangle<Number>(on_screen_again<Number>(triangle.screen), triangle.material,
+                                         triangle.two_sided, grid, format_.words);
 }
 
 void Computation::load_pieces() {
@@ -203,11 +248,11 @@ void Computation::load_pieces() {
 }
 
 void Computation::put(std::uint32_t slot, std::uint32_t object, const object_processor::TriangleWords& words) {
-  loads_.push_back({slot, object, false, operation_counts - step_start_, words});
+  loads_.push_back({slot, object, false, operations_ - step_start_, words});
 }
 
 void Computation::park(std::uint32_t slot) {
-  loads_.push_back({slot, 0, true, operation_counts - step_start_,
+  loads_.push_back({slot, 0, true, operations_ - step_start_,
                     object_processor::parked_triangle(static_cast<unsigned>(format_.words.word_bits))});
 }
 

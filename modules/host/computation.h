@@ -1,14 +1,17 @@
 // A computation unit's work (004, section 5.2.4): the coefficients of its object processors, in two steps. It first
 // transforms its triangles and says whether one of them needs the guard band, because a whole frame is snapped to one
-// grid; told the grid, it fits the coefficients. Operations are counted in the code that computes.
+// grid; told the grid, it fits the coefficients. Operations are counted by the code that computes (path_counts.h).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <vector>
 
 #include "modules/host/animation.h"
 #include "modules/host/assignment.h"
+#include "modules/host/corners.h"
+#include "modules/host/path_counts.h"
 #include "modules/host/resident_scene.h"
 #include "modules/set_up/pieces.h"
 #include "modules/set_up/triangle_set_up.h"
@@ -77,6 +80,15 @@ class Computation {
   using Number = geometry::Counted<double>;
   enum class Fate : std::uint8_t { unknown, drawn, back_face, degenerate, outside };
 
+  struct Corner {  // on the screen
+    double x = 0.0;
+    double y = 0.0;
+    double z = 0.0;
+    glm::dvec3 normal{};
+  };
+  template <class T>
+  static set_up::ScreenTriangle<T> on_screen_again(const std::array<Corner, 3>& corners);
+
   struct Triangle {
     std::uint32_t object;  // of the machine: the triangle's number in the scene, from 0
     std::uint32_t mesh;    // object of the scene
@@ -88,19 +100,23 @@ class Computation {
     bool renewed = false;  // in this frame
     bool loaded = false;   // its slot is not parked
     Fate fate = Fate::unknown;
-    set_up::ScreenTriangle<Number> screen{};  // where it needs no guard band
+    std::array<Corner, 3> screen{};  // where it needs no guard band
   };
 
+  void prefetch(const Triangle& triangle) const;
   void transform(Triangle& triangle);
+  void transform_counted(Triangle& triangle);
   void cut(Triangle& triangle, const geometry::ClipTriangle<Number>& corners);
   void allocate(Survey& survey);
   void fit(Triangle& triangle, const geometry::SnapGrid& grid);
+  set_up::SetUpResult fit_words(const Triangle& triangle, const geometry::SnapGrid& grid);
   void load_pieces();
   void put(std::uint32_t slot, std::uint32_t object, const object_processor::TriangleWords& words);
   void park(std::uint32_t slot);
 
   const ResidentScene& scene_;
   MachineFormat format_;
+  PathCounts paths_;
   geometry::FrameGrid guarded_frame_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> free_slots_;  // that no triangle owns, ascending

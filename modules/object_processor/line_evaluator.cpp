@@ -8,14 +8,6 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-// An edge as an exact linear function of the pixel, a x + b y + c with y from 0, that stays inside the word on the
-// whole screen.
-struct HalfPlane {
-  std::int64_t a = 0;
-  std::int64_t b = 0;
-  std::int64_t c = 0;
-};
-
 // Lines y of [begin, end) with p y + q >= 0.
 template <class Integer>
 void narrow_lines(Integer p, Integer q, Interval& lines) {
@@ -59,14 +51,13 @@ constexpr unsigned kWordsOfNarrowProducts = 30;
 
 }  // namespace
 
-Interval touched_lines(const std::array<LinearWords, 3>& edges, WordFormat format, std::int32_t columns,
+HalfPlanes half_planes(const std::array<LinearWords, 3>& edges, WordFormat format, std::int32_t columns,
                        std::int32_t lines) {
   const unsigned bits = format.bits();
   const std::int64_t limit = std::int64_t{1} << (bits - 1);
   const std::int64_t last_column = columns - 1;
   const std::int64_t last_line = lines - 1;
-  std::array<HalfPlane, 3> planes{};
-  std::size_t count = 0;
+  HalfPlanes result;
   for (const LinearWords& edge : edges) {
     const HalfPlane plane{sign_extend(edge.a, bits), sign_extend(edge.b, bits),
                           sign_extend(format.at(edge, 0, 0), bits)};
@@ -74,14 +65,23 @@ Interval touched_lines(const std::array<LinearWords, 3>& edges, WordFormat forma
     for (const std::int64_t corner : {plane.c + plane.a * last_column, plane.c + plane.b * last_line,
                                       plane.c + plane.a * last_column + plane.b * last_line})
       inside = inside && -limit <= corner && corner < limit;
-    if (inside) planes[count++] = plane;
+    if (inside) result.planes[result.count++] = plane;
   }
+  return result;
+}
+
+Interval touched_lines(const HalfPlanes& planes, WordFormat format, std::int32_t columns, std::int32_t lines) {
   Interval touched{0, lines};
-  if (bits <= kWordsOfNarrowProducts)
-    eliminate_columns<std::int64_t>(planes, count, last_column, touched);
+  if (format.bits() <= kWordsOfNarrowProducts)
+    eliminate_columns<std::int64_t>(planes.planes, planes.count, columns - 1, touched);
   else
-    eliminate_columns<Wide>(planes, count, last_column, touched);
+    eliminate_columns<Wide>(planes.planes, planes.count, columns - 1, touched);
   return touched;
+}
+
+Interval touched_lines(const std::array<LinearWords, 3>& edges, WordFormat format, std::int32_t columns,
+                       std::int32_t lines) {
+  return touched_lines(half_planes(edges, format, columns, lines), format, columns, lines);
 }
 
 LateCarryLine late_carry_line(const LinearWords& words, const ObjectProcessorParameters& parameters,

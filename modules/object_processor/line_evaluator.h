@@ -5,19 +5,11 @@
 #include <array>
 #include <cstdint>
 
+#include "modules/object_processor/interval.h"
 #include "modules/object_processor/triangle_processor.h"
 #include "src/base/fixed_point.h"
 
 namespace rastertlm::object_processor {
-
-// Columns or lines [begin, end).
-struct Interval {
-  std::int32_t begin = 0;
-  std::int32_t end = 0;
-  bool empty() const { return begin >= end; }
-  bool holds(std::int32_t position) const { return begin <= position && position < end; }
-  friend bool operator==(const Interval&, const Interval&) = default;
-};
 
 // A word along a line, moved to the top of 32 bits: there the wrap of the word is that of the machine's integers, and
 // its sign bit theirs. At column x it is start + x * step modulo 2^32.
@@ -71,6 +63,22 @@ constexpr void narrow(const LineWord& word, Interval& span) {
     if (end < span.end) span.end = static_cast<std::int32_t>(end);
   }
 }
+
+// An edge as an exact linear function of the pixel, a x + b y + c with y from 0, that stays inside the word on the
+// whole screen.
+struct HalfPlane {
+  std::int64_t a = 0;
+  std::int64_t b = 0;
+  std::int64_t c = 0;
+};
+// Those of three edges that do; the others could wrap somewhere.
+struct HalfPlanes {
+  std::array<HalfPlane, 3> planes{};
+  std::size_t count = 0;
+};
+HalfPlanes half_planes(const std::array<LinearWords, 3>& edges, WordFormat format, std::int32_t columns,
+                       std::int32_t lines);
+Interval touched_lines(const HalfPlanes& planes, WordFormat format, std::int32_t columns, std::int32_t lines);
 
 // The lines of a screen on which the three edges may all have sign bit 0 somewhere: conservative, and never less. An
 // edge that could wrap on the screen bounds nothing. `lines` and `columns` 1..16384.

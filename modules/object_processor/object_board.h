@@ -5,13 +5,16 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <span>
 #include <vector>
 
 #include "modules/object_processor/line_evaluator.h"
 #include "modules/object_processor/parameters.h"
 #include "modules/object_processor/prenormaliser.h"
+#include "modules/object_processor/span_kernels.h"
 #include "modules/object_processor/triangle_processor.h"
+#include "src/base/vector_variant.h"
+#include "src/frame/covered_line.h"
 #include "src/frame/scan_line.h"
 
 namespace rastertlm::object_processor {
@@ -34,15 +37,19 @@ class ObjectBoard {
   // `processors` slots, numbered from `first_processor` in the whole machine. `columns` and `lines` 1..16384. Every
   // slot starts parked.
   ObjectBoard(const ObjectProcessorParameters& parameters, std::uint32_t processors, std::uint32_t first_processor,
-              std::uint32_t columns, std::uint32_t lines, Visit visit = Visit::needed);
+              std::uint32_t columns, std::uint32_t lines, Visit visit = Visit::needed,
+              VectorVariant variant = vector_variant());
 
   std::uint32_t processors() const { return processors_; }
   std::uint32_t first_processor() const { return first_processor_; }
+  std::uint32_t columns() const { return columns_; }
   std::uint32_t background_depth() const { return format_.mask(); }
 
   // A bus write to the loading RAM of slot 0..processors-1; `index` as in triangle_processor.h; the low word_bits of
   // `value` are kept, of the material word the low 8. ModelError where there is no such slot or word.
-  void write_word(std::uint32_t slot, std::size_t index, std::uint32_t value);
+  void write_word(std::uint32_t slot, std::size_t index, std::uint32_t value) { write_words(slot, index, {&value, 1}); }
+  // A burst of words from `index` on.
+  void write_words(std::uint32_t slot, std::size_t index, std::span<const std::uint32_t> values);
   void write(std::uint32_t slot, const TriangleWords& triangle);
   void park(std::uint32_t slot);
   // Observer: the object, from 1, whose words the slot's loading RAM holds. Until it is set, the processor's number
@@ -64,15 +71,19 @@ class ObjectBoard {
   // slot once.
   void evaluate_line(std::uint32_t line, frame::FragmentLine& out);
 
+  // The same as spans, for whoever compares them (LineComposer): everything that the board's processors cover on the
+  // line. Counts what evaluate_line into an empty line counts. What is returned stays until the next line. Not with
+  // late carries (covers_in_spans).
+  const frame::CoveredLine& cover_line(std::uint32_t line);
+  bool covers_in_spans() const { return !late_carry_; }
+
   const BoardCounters& counters() const { return counters_; }
   // Bytes held now.
   std::uint64_t memory_bytes() const;
 
  private:
-  struct Slot {
-    ProcessorWords loading;
-    ProcessorWords backup;
-    std::uint32_t loading_object;
+  struct Loading {
+    ProcessorWords words;
     std::uint32_t object;
   };
   struct LineEdges {
@@ -80,23 +91,42 @@ class ObjectBoard {
     std::uint32_t depth;  // at column 0
     std::uint32_t depth_step;
   };
+  using Edges = std::array<LinearWords, 3>;
+  struct Ready {  // a line of a band
+    frame::CoveredLine covered;
+    std::uint64_t fragments = 0;
+    std::uint32_t touched = 0;  // slots that can touch the line
+    bool careful = false;       // to be found alone
+  };
 
-  Slot& writable(std::uint32_t slot, std::size_t index);
-  Slot parked_slot(std::uint32_t slot) const;
-  Interval interval_of(const ProcessorWords& words) const;
+  Loading& writable(std::uint32_t slot, std::size_t index);
+  Loading parked_slot(std::uint32_t slot) const;
+  void reserve(std::size_t slots);
+  void load(std::uint32_t slot);
+  Interval interval_of(const Edges& edges, const HalfPlanes& planes) const;
   void rebuild_buckets();
-  void select_processors(std::uint32_t line);
+  void check_line(std::uint32_t line, std::size_t columns) const;
+  void select_band(std::uint32_t line);
+  void make_ready(std::uint32_t line);
   void evaluate_processor(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out);
-  void evaluate_late_carry(std::uint32_t slot, const ProcessorWords& words, std::uint32_t line,
-                           frame::FragmentLine& out);
-  void draw(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out);
-  void draw_stepped(std::uint32_t slot, const LineEdges& at, std::uint32_t wrapping, Interval span,
-                    frame::FragmentLine& out);
+  void evaluate_late_carry(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out);
+  LineEdges line_edges(std::uint32_t slot, std::uint32_t line) const;
+  template <class Draw>
+  void visit_spans(const LineEdges& at, Interval span, const Draw& draw);
+  template <class Draw>
+  void visit_stepped(const LineEdges& at, std::uint32_t wrapping, Interval span, const Draw& draw);
+  void cover_carefully(std::uint32_t line, Ready& ready);
+  void cover_span(std::uint32_t slot, const LineEdges& at, Interval span);
   void draw_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out);
   void resolve_winners(std::uint32_t line, frame::FragmentLine& out);
   void fill_run(std::uint32_t slot, std::uint32_t line, std::size_t begin, std::size_t end, frame::FragmentLine& out);
 
-  static constexpr std::uint32_t kNoLine = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t kNone = std::uint32_t{1} << 31;  // no line or band, nor near one, modulo 2^32
+
+  // What every line asks for, side by side. Lines of a band that were found together, from ready_first_ on.
+  BoardCounters counters_;
+  std::uint32_t ready_first_ = kNone;
+  std::array<Ready, kBandLines> ready_;
 
   ObjectProcessorParameters parameters_;
   WordFormat format_;
@@ -108,23 +138,34 @@ class ObjectBoard {
   bool everything_;
   bool late_carry_;
 
-  std::vector<Slot> slots_;                  // as far as slots were ever written
-  std::vector<std::uint8_t> changed_;        // a slot, since the last copy
-  std::vector<std::uint32_t> changes_;       // the slots with changed_ set
-  std::vector<Interval> intervals_;          // a slot, of its backup words
-  std::vector<std::uint32_t> bucket_begin_;  // lines + 1: where the slots that begin on a line stand in bucket_slots_
-  std::vector<std::uint32_t> bucket_slots_;  // in order of their numbers within a line
+  const SpanKernels& kernels_;
 
-  std::vector<std::uint32_t> active_;     // slots whose interval holds current_line_, in order of their numbers
+  // A slot, as far as slots were ever written.
+  std::vector<Loading> loading_;
+  std::vector<Edges> edges_;                    // of the backup RAM
+  std::vector<frame::FragmentSource> sources_;  // the rest of the backup RAM
+  std::vector<Borders> borders_;                // of the backup words, where they are in closed form
+  std::vector<Interval> intervals_;             // lines that the backup words can touch
+  std::vector<std::uint8_t> careful_;           // whether an edge could wrap, or has no place in Borders
+  std::vector<std::uint8_t> changed_;           // since the last copy
+
+  std::vector<std::uint32_t> changes_;       // the slots with changed_ set
+  std::vector<std::uint32_t> bucket_begin_;  // bands + 1: where the slots that begin in a band stand in bucket_slots_
+  std::vector<std::uint32_t> bucket_slots_;  // in order of their numbers within a band
+  std::vector<std::uint32_t> touched_by_;    // a line: how many slots can touch it
+
+  std::vector<std::uint32_t> active_;     // slots that can touch a line of current_band_, in order of their numbers
   std::vector<std::uint32_t> merged_;     // the next active_, in the making
-  std::vector<std::uint32_t> newcomers_;  // of them, those that begin after the line before
-  std::uint32_t current_line_ = kNoLine;
+  std::vector<std::uint32_t> newcomers_;  // of them, those that begin after the band before
+  std::uint32_t current_band_ = kNone;
+  std::vector<frame::CoveredSpan> spans_;  // of the band that is ready
 
   // Of the line being evaluated. winner_ is zero between lines.
   Interval touched_;
   std::vector<std::uint32_t> winner_;  // slot + 1 of this board's nearest so far, or 0; one column more than the screen
   std::array<std::vector<std::uint32_t>, 3> normal_;  // words of the winners before normalisation
-  BoardCounters counters_;
+  std::vector<std::uint64_t> seen_;                   // a bit a column, for each line of a band
+  std::vector<frame::CoveredSpan> careful_spans_;
 };
 
 }  // namespace rastertlm::object_processor

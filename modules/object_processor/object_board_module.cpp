@@ -1,7 +1,7 @@
 #include "modules/object_processor/object_board_module.h"
 
 #include <cstring>
-#include <utility>
+#include <span>
 
 #include "modules/object_processor/bus_address.h"
 #include "modules/object_processor/object_number_payload.h"
@@ -17,7 +17,7 @@ ObjectBoardModule::ObjectBoardModule(const sc_core::sc_module_name& name, std::u
       out("out"),
       board_number_(board_number),
       board_(board),
-      timing_(timing),
+      first_pixel_(stream::to_time(timing.clock, timing.first_pixel)),
       link_(link),
       pool_(columns) {
   bus.register_b_transport(this, &ObjectBoardModule::write);
@@ -36,11 +36,9 @@ void ObjectBoardModule::write(tlm::tlm_generic_payload& payload, sc_core::sc_tim
     payload.set_response_status(tlm::TLM_ADDRESS_ERROR_RESPONSE);
     return;
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, payload.get_data_ptr() + i * sizeof(word), sizeof(word));
-    board_.write_word(target.processor, target.word + i, word);
-  }
+  ProcessorWords words;
+  std::memcpy(words.data(), payload.get_data_ptr(), count * sizeof(std::uint32_t));
+  board_.write_words(target.processor, target.word, std::span(words).first(count));
   ObjectNumber* number = nullptr;
   payload.get_extension(number);
   if (number != nullptr && number->object != 0) board_.set_object(target.processor, number->object);
@@ -59,14 +57,17 @@ void ObjectBoardModule::synchronise(stream::SyncPayload& payload, sc_core::sc_ti
     }
     return;
   }
-  stream::LinePool::Handle line = pool_.acquire();
-  board_.evaluate_line(static_cast<std::uint32_t>(payload.line), *line);
-  link_.record(line->columns(), Cycles(line->columns()));
   payload_.frame = payload.frame;
   payload_.line = payload.line;
-  payload_.fragments = std::move(line);
+  if (board_.covers_in_spans()) {
+    payload_.covered = &board_.cover_line(static_cast<std::uint32_t>(payload.line));
+  } else {
+    payload_.fragments = pool_.acquire();
+    board_.evaluate_line(static_cast<std::uint32_t>(payload.line), *payload_.fragments);
+  }
+  link_.record(board_.columns(), Cycles(board_.columns()));
   ++lines_sent_;
-  delay += stream::to_time(timing_.clock, timing_.first_pixel);
+  delay += first_pixel_;
   out->b_transport(payload_, delay);
 }
 

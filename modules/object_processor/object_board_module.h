@@ -41,7 +41,7 @@ class ObjectBoardModule : public sc_core::sc_module {
 
   std::uint32_t board_number_;
   ObjectBoard& board_;
-  Timing timing_;
+  sc_core::sc_time first_pixel_;
   stream::Link& link_;
   stream::LinePool pool_;
   stream::FragmentPayload payload_;

@@ -6,6 +6,8 @@
 #include <cstdint>
 
 #include "modules/object_processor/parameters.h"
+#include "modules/object_processor/span_kernels.h"
+#include "src/base/vector_variant.h"
 
 namespace rastertlm::object_processor {
 
@@ -18,7 +20,7 @@ using LinkNormal = std::array<std::uint16_t, 3>;
 // K.
 class Prenormaliser {
  public:
-  explicit Prenormaliser(const ObjectProcessorParameters& parameters);
+  explicit Prenormaliser(const ObjectProcessorParameters& parameters, VectorVariant variant = vector_variant());
 
   // `normal`: words of word_bits, two's complement; bits above are ignored.
   LinkNormal operator()(const std::array<std::uint32_t, 3>& normal) const;
@@ -34,6 +36,7 @@ class Prenormaliser {
   unsigned word_bits_;
   unsigned normal_bits_;
   unsigned largest_shift_;
+  const SpanKernels* kernels_;
 };
 
 // For observers: a link word in half units of its last place, sign * (2 m + 1).

@@ -1,44 +1,22 @@
 #include "modules/object_processor/triangle_processor.h"
 
-#include <algorithm>
+#include <bit>
+#include <cstddef>
 
 #include "modules/object_processor/prenormaliser.h"
 #include "src/base/fixed_point.h"
 
 namespace rastertlm::object_processor {
 
-namespace {
+// The words of a triangle stand in the order of their addresses.
+static_assert(sizeof(TriangleWords) == sizeof(ProcessorWords));
+static_assert(offsetof(TriangleWords, depth) == sizeof(std::uint32_t) * word_index(kDepth, 0));
+static_assert(offsetof(TriangleWords, normals) == sizeof(std::uint32_t) * word_index(kNormalX, 0));
+static_assert(offsetof(TriangleWords, material) == sizeof(std::uint32_t) * kMaterialIndex);
 
-void put(ProcessorWords& words, std::size_t elementary_processor, const LinearWords& linear) {
-  words[word_index(elementary_processor, 0)] = linear.a;
-  words[word_index(elementary_processor, 1)] = linear.b;
-  words[word_index(elementary_processor, 2)] = linear.c;
-}
+ProcessorWords to_words(const TriangleWords& triangle) { return std::bit_cast<ProcessorWords>(triangle); }
 
-LinearWords take(const ProcessorWords& words, std::size_t elementary_processor) {
-  return {words[word_index(elementary_processor, 0)], words[word_index(elementary_processor, 1)],
-          words[word_index(elementary_processor, 2)]};
-}
-
-}  // namespace
-
-ProcessorWords to_words(const TriangleWords& triangle) {
-  ProcessorWords words{};
-  for (std::size_t i = 0; i < 3; ++i) put(words, kEdge0 + i, triangle.edges[i]);
-  put(words, kDepth, triangle.depth);
-  for (std::size_t i = 0; i < 3; ++i) put(words, kNormalX + i, triangle.normals[i]);
-  words[kMaterialIndex] = triangle.material;
-  return words;
-}
-
-TriangleWords to_triangle(const ProcessorWords& words) {
-  TriangleWords triangle;
-  for (std::size_t i = 0; i < 3; ++i) triangle.edges[i] = take(words, kEdge0 + i);
-  triangle.depth = take(words, kDepth);
-  for (std::size_t i = 0; i < 3; ++i) triangle.normals[i] = take(words, kNormalX + i);
-  triangle.material = words[kMaterialIndex];
-  return triangle;
-}
+TriangleWords to_triangle(const ProcessorWords& words) { return std::bit_cast<TriangleWords>(words); }
 
 TriangleWords parked_triangle(unsigned word_bits) {
   const auto all_ones = static_cast<std::uint32_t>(low_mask(word_bits));

@@ -18,13 +18,22 @@ namespace rastertlm::set_up {
 
 __extension__ using WideInteger = __int128;
 
-// Round half up; 0 where the value is beyond any slope of a triangle on a grid, or is not a number.
-template <class T>
-WideInteger to_wide_integer(T value) {
+// Slopes below it, and what is made of them with an anchor, are computed in 64 bits: those of all but slivers.
+inline constexpr double kNarrowSlope = 0x1p31;
+
+// Round half up; 0 where the value is beyond any slope of a triangle on a grid, or is not a number. 64 bits are given
+// no value of 2^62 or more.
+template <class Integer, class T>
+Integer to_slope_integer(T value) {
   if constexpr (!std::is_arithmetic_v<T>) ++geometry::operation_counts.convert;
-  constexpr double kLimit = 0x1p90;
-  const double rounded = std::floor(geometry::plain(value) + 0.5);
-  return rounded > -kLimit && rounded < kLimit ? static_cast<WideInteger>(rounded) : WideInteger{0};
+  const double plain = geometry::plain(value);
+  if constexpr (sizeof(Integer) == sizeof(std::int64_t)) {
+    return round_half_up(plain);
+  } else {
+    constexpr double kLimit = 0x1p90;
+    const double rounded = std::floor(plain + 0.5);
+    return rounded > -kLimit && rounded < kLimit ? static_cast<Integer>(rounded) : Integer{0};
+  }
 }
 
 // Fits planes through three values at the corners, in units of the word, any number of them.
@@ -40,6 +49,9 @@ class PlaneFit {
   LinearWords fit(const std::array<T, 3>& values) const;
 
  private:
+  template <class Integer>
+  LinearWords round(const T& slope_x, const T& slope_y, const T& at_anchor) const;
+
   // Twice the middle of [low, high], both moved onto [0, limit] first.
   static std::int64_t doubled_middle(std::int64_t low, std::int64_t high, std::int64_t limit) {
     return std::clamp<std::int64_t>(low, 0, limit) + std::clamp<std::int64_t>(high, 0, limit);
@@ -47,6 +59,7 @@ class PlaneFit {
 
   int word_bits_;
   int anchor_bits_;  // the anchor is in units of 2^-anchor_bits pixel
+  double fraction_unit_;
   std::int64_t anchor_x_;
   std::int64_t anchor_y_;
   T edge1_x_, edge1_y_;  // from corner 0, over the doubled area and in pixels: slopes are sums of products with them
@@ -57,7 +70,9 @@ class PlaneFit {
 template <class T>
 PlaneFit<T>::PlaneFit(const std::array<geometry::SnappedPoint, 3>& corners, std::int64_t area, int fraction_bits,
                       const WordFormat& format)
-    : word_bits_(format.word_bits), anchor_bits_(fraction_bits + 1) {
+    : word_bits_(format.word_bits),
+      anchor_bits_(fraction_bits + 1),
+      fraction_unit_(1.0 / static_cast<double>(std::int64_t{1} << anchor_bits_)) {
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
   anchor_x_ = doubled_middle(left, right, (static_cast<std::int64_t>(format.columns) - 1) << fraction_bits);
@@ -70,7 +85,7 @@ PlaneFit<T>::PlaneFit(const std::array<geometry::SnappedPoint, 3>& corners, std:
   const std::int64_t ay = anchor_y_ - 2 * corners[0].y;
   geometry::charge_integer<T>(28, 4);  // comparisons of the box and its clamping, differences, two cross products
   const T reciprocal = T(1.0) / geometry::from_integer<T>(area);
-  const T per_pixel = reciprocal * T(std::ldexp(1.0, fraction_bits));
+  const T per_pixel = reciprocal * T(static_cast<double>(std::int64_t{1} << fraction_bits));
   edge1_x_ = geometry::from_integer<T>(e1x) * per_pixel;
   edge1_y_ = geometry::from_integer<T>(e1y) * per_pixel;
   edge2_x_ = geometry::from_integer<T>(e2x) * per_pixel;
@@ -84,16 +99,28 @@ template <class T>
 LinearWords PlaneFit<T>::fit(const std::array<T, 3>& values) const {
   const T d1 = values[1] - values[0];
   const T d2 = values[2] - values[0];
-  const WideInteger a = to_wide_integer<T>(d1 * edge2_y_ - d2 * edge1_y_);
-  const WideInteger b = to_wide_integer<T>(d2 * edge1_x_ - d1 * edge2_x_);
+  const T slope_x = d1 * edge2_y_ - d2 * edge1_y_;
+  const T slope_y = d2 * edge1_x_ - d1 * edge2_x_;
   const T at_anchor = values[0] + d1 * weight1_ + d2 * weight2_;
+  const auto narrow = [](const T& value, double limit) { return std::fabs(geometry::plain(value)) < limit; };
+  constexpr double kNarrowValue = 0x1p60;
+  if (narrow(slope_x, kNarrowSlope) && narrow(slope_y, kNarrowSlope) && narrow(at_anchor, kNarrowValue))
+    return round<std::int64_t>(slope_x, slope_y, at_anchor);
+  return round<WideInteger>(slope_x, slope_y, at_anchor);
+}
 
+template <class T>
+template <class Integer>
+LinearWords PlaneFit<T>::round(const T& slope_x, const T& slope_y, const T& at_anchor) const {
+  const auto a = to_slope_integer<Integer>(slope_x);
+  const auto b = to_slope_integer<Integer>(slope_y);
   // round(at_anchor - a x - b y) at the anchor: the whole part of a x + b y apart from its fraction, so that nothing is
   // lost where slopes are steep.
-  const WideInteger sum = a * anchor_x_ + b * anchor_y_;
-  const WideInteger whole = sum >> anchor_bits_;
-  const auto fraction = static_cast<double>(sum - (whole << anchor_bits_)) / std::ldexp(1.0, anchor_bits_);
-  const WideInteger c = to_wide_integer<T>(at_anchor - T(fraction)) - whole;
+  const Integer sum = a * anchor_x_ + b * anchor_y_;
+  const Integer whole = sum >> anchor_bits_;
+  const auto below = static_cast<std::int64_t>(sum - (whole << anchor_bits_));  // 0 .. 2^anchor_bits - 1
+  const double fraction = static_cast<double>(below) * fraction_unit_;
+  const Integer c = to_slope_integer<Integer>(at_anchor - T(fraction)) - whole;
   geometry::charge_integer<T>(6, 2);
   // Slopes may be wider than 64 bits on the finest grids; the word is their lowest bits.
   return loaded_words(static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), static_cast<std::int64_t>(c),

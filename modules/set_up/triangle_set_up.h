@@ -93,24 +93,29 @@ template <class T>
 SetUpResult set_up_triangle(const ScreenTriangle<T>& corners, std::uint32_t material, bool two_sided,
                             const geometry::SnapGrid& grid, const WordFormat& format) {
   SetUpResult result;
-  result.words = object_processor::parked_triangle(static_cast<unsigned>(format.word_bits));
-  result.words.material = material;
+  const auto park = [&] {
+    result.words = object_processor::parked_triangle(static_cast<unsigned>(format.word_bits));
+    result.words.material = material;
+  };
 
   const int fraction_bits = format.edges == EdgeForm::snapped ? grid.fraction_bits : kScaledFractionBits;
   ScreenTriangle<T> triangle;
   std::array<geometry::SnappedPoint, 3> points;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto corner = detail::within_guard(corners[i], grid, format);
-    if (!corner) return result;
+    if (!corner) {
+      park();
+      return result;
+    }
     triangle[i] = *corner;
     points[i] = geometry::snap(triangle[i], fraction_bits);
   }
   std::int64_t area = geometry::doubled_area(points[0], points[1], points[2]);
   geometry::charge_integer<T>(6, 2);
-  if (area == 0) return result;
   const bool turned = !geometry::faces_viewer(area);
-  if (turned && !two_sided) {
-    result.outcome = Outcome::back_face;
+  if (area == 0 || (turned && !two_sided)) {
+    if (area != 0) result.outcome = Outcome::back_face;
+    park();
     return result;
   }
   if (turned) {
@@ -121,6 +126,7 @@ SetUpResult set_up_triangle(const ScreenTriangle<T>& corners, std::uint32_t mate
   for (std::size_t edge = 0; edge < 3; ++edge)
     result.words.edges[edge] = detail::edge_words(triangle, points, edge, fraction_bits, format);
   detail::fit_planes(triangle, PlaneFit<T>(points, area, fraction_bits, format), turned, format, result.words);
+  result.words.material = material;
   result.outcome = Outcome::drawn;
   return result;
 }

@@ -21,7 +21,8 @@ double diffuse_product(const LightArguments& light, const MaterialArguments& mat
 
 }  // namespace
 
-DeferredShader::DeferredShader(const ShadingParameters& parameters, std::int64_t normal_bits, std::size_t banks)
+DeferredShader::DeferredShader(const ShadingParameters& parameters, std::int64_t normal_bits, std::size_t banks,
+                               VectorVariant variant)
     : parameters_(parameters),
       magnitude_bits_(static_cast<unsigned>(normal_bits - 1)),
       full_level_(static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(parameters.level_bits)))),
@@ -30,7 +31,8 @@ DeferredShader::DeferredShader(const ShadingParameters& parameters, std::int64_t
       path_rom_(parameters),
       materials_(static_cast<std::size_t>(parameters.materials)),
       lights_(static_cast<std::size_t>(parameters.lights)),
-      banks_(banks == 2 ? 2 : 1, Bank{TableBank(parameters), LoadRecord()}) {
+      banks_(banks == 2 ? 2 : 1, Bank{TableBank(parameters), LoadRecord(), Bank::Copy::stale, std::nullopt}),
+      kernels_(&shade_kernels(variant)) {
   // A converter of fewer bits still drives the display to full scale.
   for (std::uint32_t level = 0; level <= full_level_; ++level)
     display_.push_back(static_cast<std::uint8_t>((level * 510 + full_level_) / (2 * full_level_)));
@@ -50,6 +52,7 @@ void DeferredShader::set_light(std::size_t index, const LightArguments& light) {
     throw InputError(
         {"", 0, "light", fmt::format("light {} of a machine with {} (shading.lights)", index + 1, lights_.size())});
   lights_[index] = {true, light};
+  for (Bank& bank : banks_) written(bank);
 }
 
 std::uint32_t DeferredShader::light_word(double component) const {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,8 +14,11 @@
 #include "modules/shading/normaliser.h"
 #include "modules/shading/parameters.h"
 #include "modules/shading/path_rom.h"
+#include "modules/shading/shade_kernels.h"
+#include "modules/shading/shade_tables.h"
 #include "modules/shading/table_bank.h"
 #include "modules/shading/table_load.h"
+#include "src/base/vector_variant.h"
 #include "src/frame/scan_line.h"
 
 namespace rastertlm::shading {
@@ -63,7 +67,8 @@ struct LogicSize {
 class DeferredShader {
  public:
   // The parameters have passed ShadingParameters::check(normal_bits). `banks`: 1 or 2 copies of the loaded tables.
-  DeferredShader(const ShadingParameters& parameters, std::int64_t normal_bits, std::size_t banks = 1);
+  DeferredShader(const ShadingParameters& parameters, std::int64_t normal_bits, std::size_t banks = 1,
+                 VectorVariant variant = vector_variant());
 
   // What the next load brings into the tables. Throws InputError for an exponent that the ROM does not hold, or an
   // index that the machine does not have; `key` names the value in the scene file. Products above 1 are clamped to full
@@ -83,11 +88,12 @@ class DeferredShader {
   LoadProgram program(const LoadRecord& record, std::span<const std::size_t> materials) const;
   LoadProgram program(const LoadRecord& record) const;  // of every material that was set
 
-  // Tables in use, and tables being written (the same where there is one bank).
+  // Tables in use, and tables being written (the same where there is one bank). What is got to be written must not be
+  // written after the next line: a line is shaded from a copy if nobody asked for the tables since the line before.
   const TableBank& front() const { return banks_[front_].tables; }
-  TableBank& front() { return banks_[front_].tables; }
+  TableBank& front() { return written(banks_[front_]); }
   LoadRecord& front_record() { return banks_[front_].record; }
-  TableBank& back() { return banks_[back_index()].tables; }
+  TableBank& back() { return written(banks_[back_index()]); }
   LoadRecord& back_record() { return banks_[back_index()].record; }
   void swap_banks() { front_ = back_index(); }
   // Brings everything into the front bank at once: the state after a load that had all the time it needs.
@@ -112,10 +118,18 @@ class DeferredShader {
   std::vector<LogicSize> logic() const;
 
  private:
+  // `copy` is what the kernel reads.
   struct Bank {
+    enum class Copy { stale, wanted, made };
     TableBank tables;
     LoadRecord record;
+    Copy state = Copy::stale;
+    std::optional<ShadeTables> copy;
   };
+  static TableBank& written(Bank& bank) {
+    bank.state = Bank::Copy::stale;
+    return bank.tables;
+  }
   // Covered pixels of a line, gathered: structure of arrays for the vector units.
   struct Scratch {
     std::vector<std::uint32_t> column, base, visible, squares, diffuse_index, specular_index;
@@ -140,6 +154,11 @@ class DeferredShader {
   void add_light_jobs(std::size_t light, std::span<const std::size_t> materials, std::vector<TableJob>& jobs) const;
   std::vector<RegisterWrite> registers() const;
 
+  const ShadeTables* copy_of_tables();
+  void shade_line_from(const ShadeTables& tables, const frame::FragmentLine& in, frame::RgbLine& out);
+  void shade_line_by_stages(const frame::FragmentLine& in, frame::RgbLine& out);
+  void paint(std::size_t first, std::size_t last, frame::RgbLine& out) const;
+  void check_material(std::uint32_t largest, std::size_t pixels) const;
   std::size_t gather(const frame::FragmentLine& in, frame::RgbLine& out);
   void normalise(std::size_t count);
   void add_light(const LightTables& light, const MaterialTables& tables, std::size_t count);
@@ -160,6 +179,7 @@ class DeferredShader {
   std::size_t front_ = 0;
   ShadingCounters counters_;
   Scratch scratch_;
+  const ShadeKernels* kernels_;
 };
 
 }  // namespace rastertlm::shading

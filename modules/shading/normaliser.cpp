@@ -17,13 +17,14 @@ Normaliser::Normaliser(const ShadingParameters& parameters, std::int64_t normal_
                                            parameters.dot_table_address_bits)),
       clamp_(static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(parameters.dot_table_address_bits)))),
       short_limit_(std::uint32_t{1} << (2 * magnitude_bits_ - 2)),
+      root_scale_(
+          std::ldexp(1.0, static_cast<int>(parameters.normaliser_output_bits) + static_cast<int>(magnitude_bits_) - 1)),
+      largest_root_(static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(parameters.normaliser_output_bits)))),
       rom_(std::size_t{1} << parameters.normaliser_address_bits) {
-  const auto output_bits = static_cast<unsigned>(parameters.normaliser_output_bits);
-  const double scale = std::ldexp(1.0, static_cast<int>(output_bits + magnitude_bits_ - 1));
-  const double largest = static_cast<double>(low_mask(output_bits));
+  const auto largest = static_cast<double>(largest_root_);
   for (std::size_t address = 0; address < rom_.size(); ++address) {
     const double centre = (static_cast<double>(address) + 0.5) * std::ldexp(1.0, static_cast<int>(address_shift_));
-    rom_[address] = static_cast<std::uint16_t>(std::min(largest, std::floor(scale / std::sqrt(centre) + 0.5)));
+    rom_[address] = static_cast<std::uint16_t>(std::min(largest, std::floor(root_scale_ / std::sqrt(centre) + 0.5)));
   }
 }
 

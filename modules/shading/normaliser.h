@@ -58,6 +58,11 @@ class Normaliser {
   NormalisedNormal normalise(std::uint32_t word_x, std::uint32_t word_y, std::uint32_t word_z) const;
 
   const std::vector<std::uint16_t>& rom() const { return rom_; }
+  unsigned address_shift() const { return address_shift_; }  // squares to ROM address
+  unsigned product_shift() const { return product_shift_; }
+  double root_scale() const { return root_scale_; }             // an entry is round(scale / sqrt(squares)),
+  std::uint32_t largest_root() const { return largest_root_; }  // but not more than this
+  std::uint32_t short_limit() const { return short_limit_; }
 
  private:
   bool centred_;
@@ -67,6 +72,8 @@ class Normaliser {
   unsigned product_shift_;
   std::uint32_t clamp_;
   std::uint32_t short_limit_;
+  double root_scale_;
+  std::uint32_t largest_root_;
   std::vector<std::uint16_t> rom_;  // words of normaliser_output_bits
 };
 

@@ -1,6 +1,7 @@
-// The line form of the deferred shading processor: the covered pixels of a line are gathered, and each stage runs over
-// all of them, as the pipeline would, so that the compiler can use the vector units.
+// The line form of the deferred shading processor. Tables that a loader has finished are read by a vector kernel.
+// Otherwise the covered pixels of a line are gathered, and each stage runs over all of them, as the pipeline would.
 #include <algorithm>
+#include <utility>
 
 #include "modules/shading/deferred_shader.h"
 #include "src/base/errors.h"
@@ -22,21 +23,32 @@ void DeferredShader::Scratch::resize(std::size_t columns) {
   }
 }
 
-std::size_t DeferredShader::gather(const frame::FragmentLine& in, frame::RgbLine& out) {
+void DeferredShader::paint(std::size_t first, std::size_t last, frame::RgbLine& out) const {
+  if (first >= last) return;
   const Levels background = front().background;
+  std::uint8_t* levels = &out.levels[3 * first];
+  const std::size_t size = 3 * (last - first);
+  std::copy(background.begin(), background.end(), levels);
+  // What is painted is the pattern of what comes next.
+  for (std::size_t done = 3; done < size; done *= 2) std::copy_n(levels, std::min(done, size - done), levels + done);
+}
+
+void DeferredShader::check_material(std::uint32_t largest, std::size_t pixels) const {
+  if (largest >= materials_.size())
+    throw ModelError("shading", counters_.pixels + pixels, "a pixel selects a material that the tables do not have");
+}
+
+std::size_t DeferredShader::gather(const frame::FragmentLine& in, frame::RgbLine& out) {
   const auto index_bits = static_cast<unsigned>(parameters_.index_bits);
-  const auto paint = [&](std::size_t first, std::size_t last) {
-    for (std::size_t c = first; c < last; ++c) std::copy(background.begin(), background.end(), &out.levels[3 * c]);
-  };
   const std::size_t begin = std::min(in.begin, in.columns());
   const std::size_t end = std::clamp(in.end, begin, in.columns());
-  paint(0, begin);
-  paint(end, in.columns());
+  paint(0, begin, out);
+  paint(end, in.columns(), out);
   std::size_t count = 0;
   std::uint32_t largest_material = 0;
   for (std::size_t c = begin; c < end; ++c) {
     if (in.object[c] == 0) {
-      paint(c, c + 1);
+      paint(c, c + 1, out);
       continue;
     }
     scratch_.column[count] = static_cast<std::uint32_t>(c);
@@ -48,8 +60,7 @@ std::size_t DeferredShader::gather(const frame::FragmentLine& in, frame::RgbLine
     scratch_.base[count] = material << index_bits;
     ++count;
   }
-  if (largest_material >= materials_.size())
-    throw ModelError("shading", counters_.pixels + count, "a pixel selects a material that the tables do not have");
+  check_material(largest_material, count);
   return count;
 }
 
@@ -121,7 +132,7 @@ void DeferredShader::add_light(const LightTables& light, const MaterialTables& t
 }
 
 void DeferredShader::finish(std::size_t count, frame::RgbLine& out) {
-  const std::vector<std::uint8_t>& ambient = front().ambient;
+  const std::vector<std::uint8_t>& ambient = std::as_const(*this).front().ambient;
   const auto index_bits = static_cast<unsigned>(parameters_.index_bits);
   std::uint64_t saturated_pixels = 0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -138,16 +149,62 @@ void DeferredShader::finish(std::size_t count, frame::RgbLine& out) {
   counters_.saturated_pixels += saturated_pixels;
 }
 
-void DeferredShader::shade_line(const frame::FragmentLine& in, frame::RgbLine& out) {
-  if (out.columns() != in.columns()) out.resize(in.columns());
+// A copy is worth its making where nobody has written since the line before; a bank that is being written is read as it
+// stands.
+const ShadeTables* DeferredShader::copy_of_tables() {
+  Bank& bank = banks_[front_];
+  if (bank.state == Bank::Copy::stale) {
+    bank.state = Bank::Copy::wanted;
+    return nullptr;
+  }
+  if (bank.state == Bank::Copy::wanted) {
+    std::vector<std::size_t> lit;
+    for (std::size_t l = 0; l < lights_.size(); ++l)
+      if (lights_[l].set) lit.push_back(l);
+    bank.copy = ShadeTables::of(bank.tables, normaliser_, parameters_, magnitude_bits_ + 1, lit, *kernels_);
+    bank.state = Bank::Copy::made;
+  }
+  return bank.copy ? &*bank.copy : nullptr;
+}
+
+void DeferredShader::shade_line_from(const ShadeTables& tables, const frame::FragmentLine& in, frame::RgbLine& out) {
+  const std::size_t begin = std::min(in.begin, in.columns());
+  const std::size_t end = std::clamp(in.end, begin, in.columns());
+  paint(0, begin, out);
+  paint(end, in.columns(), out);
+  ShadeRequest request = tables.request();
+  request.normal[0] = in.normal_x.data() + begin;
+  request.normal[1] = in.normal_y.data() + begin;
+  request.normal[2] = in.normal_z.data() + begin;
+  request.material = in.material.data() + begin;
+  request.object = in.object.data() + begin;
+  request.count = end - begin;
+  request.rgb = out.levels.data() + 3 * begin;
+  const ShadeTotals totals = kernels_->shade(request);
+  check_material(totals.largest_material, totals.pixels);
+  counters_.pixels += totals.pixels;
+  counters_.zero_normals += totals.zero_normals;
+  counters_.short_normals += totals.short_normals;
+  counters_.saturated_pixels += totals.saturated_pixels;
+}
+
+void DeferredShader::shade_line_by_stages(const frame::FragmentLine& in, frame::RgbLine& out) {
   if (scratch_.column.size() < in.columns()) scratch_.resize(in.columns());
   const std::size_t count = gather(in, out);
   normalise(count);
   for (auto& sum : scratch_.sum) std::fill_n(sum.begin(), count, 0U);
-  const TableBank& tables = front();
+  const TableBank& tables = std::as_const(*this).front();
   for (std::size_t l = 0; l < tables.lights.size(); ++l)
     if (lights_[l].set) add_light(tables.lights[l], tables.material_tables[l], count);
   finish(count, out);
+}
+
+void DeferredShader::shade_line(const frame::FragmentLine& in, frame::RgbLine& out) {
+  if (out.columns() != in.columns()) out.resize(in.columns());
+  if (const ShadeTables* tables = copy_of_tables())
+    shade_line_from(*tables, in, out);
+  else
+    shade_line_by_stages(in, out);
 }
 
 }  // namespace rastertlm::shading

@@ -6,15 +6,19 @@
 #include <tlm>
 
 #include "modules/stream/line_pool.h"
+#include "src/frame/covered_line.h"
 #include "src/frame/scan_line.h"
 
 namespace rastertlm::stream {
 
-// A scan line of fragments on its way to the screen. Whoever receives it takes the handle, and may write into the line.
+// A scan line of fragments on its way to the screen: its pixels, or, from a board, the spans that it covers, to which
+// pixels are what is seen of them in the end. Whoever receives it takes the handle, and may write into the line; spans
+// stay the sender's, until its next line.
 struct FragmentPayload : tlm::tlm_generic_payload {
   std::uint64_t frame = 0;  // displayed frame
   std::size_t line = 0;
   LinePool::Handle fragments;
+  const frame::CoveredLine* covered = nullptr;
 };
 
 // A shaded line. `fragments` is what observers may look at beside the levels.

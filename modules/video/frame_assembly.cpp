@@ -15,7 +15,15 @@ double centre(std::uint16_t word, unsigned normal_bits) {
 
 }  // namespace
 
-FrameAssembly::FrameAssembly(const Format& format) : format_(format) { frame_.resize(format.columns, format.lines); }
+FrameAssembly::FrameAssembly(const Format& format) : format_(format) {
+  if (format.observe) {
+    frame_.resize(format.columns, format.lines);
+    return;
+  }
+  frame_.columns = format.columns;
+  frame_.lines = format.lines;
+  frame_.rgb.assign(3 * frame_.pixels(), 0);
+}
 
 void FrameAssembly::add_line(std::size_t line, const frame::RgbLine& rgb, const frame::FragmentLine& fragments) {
   const auto at = static_cast<std::ptrdiff_t>(3 * line * format_.columns);

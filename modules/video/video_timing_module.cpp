@@ -33,8 +33,9 @@ void VideoTimingModule::announce(SyncPayload::Kind kind, std::size_t line, Cycle
   payload_.kind = kind;
   payload_.frame = shown_ / timing_.fields;
   payload_.line = line;
+  const sc_core::sc_time since = stream::to_time(timing_.clock, since_frame_start);
   for (auto& socket : sync) {
-    sc_core::sc_time delay = stream::to_time(timing_.clock, since_frame_start);
+    sc_core::sc_time delay = since;
     socket->b_transport(payload_, delay);
   }
 }

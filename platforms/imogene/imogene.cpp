@@ -77,6 +77,8 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
       resident_(resident_scene(machine, scene)),
       animation_(resident_, machine.host.send == host::Send::all),
       decision_(machine.decision_unit, depth_of_nothing(machine)),
+      composer_(machine.object_processor, static_cast<std::size_t>(machine.video.columns),
+                options.observe || options.decided || options.shaded),
       shader_(machine.shading, machine.object_processor.normal_bits, banks(machine)) {
   if (sc_core::sc_get_time_resolution() != sc_core::sc_time(1, sc_core::SC_PS))
     throw ModelError("platform", 0, "SystemC's time resolution is not 1 ps");
@@ -237,8 +239,8 @@ void Imogene::build_shading() {
   stream::Link& decided = add_link("decision unit to shading", fragment_bits, timing_.clock);
   stream::Link& rgb =
       add_link("shading to video", 3 * static_cast<unsigned>(machine_.shading.level_bits), timing_.clock);
-  decision_module_ = std::make_unique<decision_unit::DecisionUnitModule>("decision_unit", decision_, boards_.size(),
-                                                                         timing_.clock, decision_latency_, decided);
+  decision_module_ = std::make_unique<decision_unit::DecisionUnitModule>(
+      "decision_unit", decision_, composer_, columns, boards_.size(), timing_.clock, decision_latency_, decided);
   shading_module_ = std::make_unique<shading::DeferredShadingModule>(
       "deferred_shading", shader_, columns, timing_.clock, machine_.shading.total_latency(), rgb);
 
@@ -278,7 +280,7 @@ void Imogene::build_video() {
                                             timing_.fields,
                                             static_cast<unsigned>(machine_.object_processor.normal_bits),
                                             depth_of_nothing(machine_),
-                                            true};
+                                            options_.observe};
   video_output_ = std::make_unique<video::VideoOutputModule>(
       "video_output", format,
       [this](std::uint64_t frame, std::size_t field, const frame::Frame& pixels, std::uint64_t last_line_ps) {

@@ -31,6 +31,7 @@ struct Options {
   // line; none where empty.
   stream::Observer<stream::FragmentPayload> decided = {};
   stream::Observer<stream::RgbPayload> shaded = {};
+  bool observe = true;  // frames have all their planes; without, their levels alone
 };
 
 // What a video frame shows, as the hosts left it: a displayed frame, or one of its two fields where it is interlaced.
@@ -149,6 +150,7 @@ class Imogene {
   std::vector<std::unique_ptr<host::Computation>> computations_;
   std::vector<object_processor::ObjectBoard> boards_;
   decision_unit::DecisionUnit decision_;
+  object_processor::LineComposer composer_;
   shading::DeferredShader shader_;
 
   std::unique_ptr<video::VideoTimingModule> video_timing_;

@@ -32,7 +32,12 @@ constexpr std::int64_t wrap_signed(std::int64_t value, unsigned bits) {
 constexpr unsigned bit_length(std::uint64_t value) { return static_cast<unsigned>(std::bit_width(value)); }
 
 // Rounding to nearest, half upwards: the only rounding of the model. |value| < 2^62.
-inline std::int64_t round_half_up(double value) { return static_cast<std::int64_t>(std::floor(value + 0.5)); }
+// By truncation: a processor of 2003 has no instruction for floor, and a call costs more than all else here.
+inline std::int64_t round_half_up(double value) {
+  const double sum = value + 0.5;
+  const auto towards_zero = static_cast<std::int64_t>(sum);
+  return towards_zero - (static_cast<double>(towards_zero) > sum ? 1 : 0);
+}
 
 // Division of integers that rounds towards minus or plus infinity; divisor > 0.
 constexpr std::int64_t floor_div(std::int64_t value, std::int64_t divisor) {

@@ -24,17 +24,21 @@ struct FragmentLine {
   std::size_t begin = 0;
   std::size_t end = 0;
 
-  std::size_t columns() const { return depth.size(); }
+  // What vectors may read and write behind the last column.
+  static constexpr std::size_t kSpare = 64;
+
+  std::size_t columns() const { return columns_; }
   bool empty() const { return begin >= end; }
 
   void resize(std::size_t columns) {
-    depth.resize(columns);
-    normal_x.resize(columns);
-    normal_y.resize(columns);
-    normal_z.resize(columns);
-    material.resize(columns);
-    object.resize(columns);
-    coverage.resize(columns);
+    columns_ = columns;
+    depth.resize(columns + kSpare);
+    normal_x.resize(columns + kSpare);
+    normal_y.resize(columns + kSpare);
+    normal_z.resize(columns + kSpare);
+    material.resize(columns + kSpare);
+    object.resize(columns + kSpare);
+    coverage.resize(columns + kSpare);
     clear();
   }
   void clear() { begin = end = 0; }
@@ -66,6 +70,8 @@ struct FragmentLine {
     std::fill(object.begin() + from, object.begin() + to, 0U);
     std::fill(coverage.begin() + from, coverage.begin() + to, std::uint16_t{0});
   }
+
+  std::size_t columns_ = 0;
 };
 
 // One line of display levels, red, green and blue interleaved, 0..255.

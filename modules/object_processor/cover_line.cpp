@@ -1,0 +1,75 @@
+// A board's line as spans.
+#include <algorithm>
+#include <bit>
+
+#include "modules/object_processor/object_board.h"
+#include "modules/object_processor/visit_spans.h"
+
+namespace rastertlm::object_processor {
+
+// Finds the spans of the line's band.
+void ObjectBoard::make_ready(std::uint32_t line) {
+  select_band(line);
+  ready_first_ = current_band_ * kBandLines;
+  const std::size_t room = active_.size() + 1;
+  if (spans_.size() < kBandLines * room) spans_.resize(kBandLines * room);
+  BandLines found;
+  for (std::size_t k = 0; k < kBandLines; ++k) found.line[k].spans = &spans_[k * room];
+  const bool careful = std::any_of(active_.begin(), active_.end(), [this](auto slot) { return careful_[slot] != 0; });
+  if (!careful)
+    kernels_.band({active_.data(), active_.size(), borders_.data(), intervals_.data(), sources_.data(), ready_first_,
+                   columns_, format_.mask(), seen_.data(), seen_.size() / kBandLines},
+                  found);
+  for (std::uint32_t k = 0; k < kBandLines; ++k) {
+    const BandLine& band_line = found.line[k];
+    const std::uint32_t touched = ready_first_ + k < lines_ ? touched_by_[ready_first_ + k] : 0;
+    ready_[k] = {{band_line.spans, band_line.count, band_line.seen_pixels},
+                 band_line.fragments,
+                 touched,
+                 touched > 0 && (careful || (found.doubtful >> k & 1U) != 0)};
+  }
+}
+
+const frame::CoveredLine& ObjectBoard::cover_line(std::uint32_t line) {
+  if (line - ready_first_ >= kBandLines || line >= lines_) {
+    check_line(line, columns_);
+    make_ready(line);
+  }
+  Ready& ready = ready_[line - ready_first_];
+  if (ready.careful) cover_carefully(line, ready);
+  counters_.lines_evaluated += ready.touched > 0 ? 1 : 0;
+  counters_.processors_visited += ready.touched;
+  counters_.fragments_in += ready.fragments;
+  counters_.fragments_kept += ready.covered.seen_pixels;
+  counters_.fragments_hidden += ready.fragments - ready.covered.seen_pixels;
+  return ready.covered;
+}
+
+// A line on which an edge could wrap, or a depth reach the word of nothing: span by span, as evaluate_line draws it.
+void ObjectBoard::cover_carefully(std::uint32_t line, Ready& ready) {
+  std::fill(seen_.begin(), seen_.end(), 0U);
+  careful_spans_.clear();
+  ready.fragments = 0;
+  for (const std::uint32_t slot : active_) {
+    if (!intervals_[slot].holds(static_cast<std::int32_t>(line))) continue;
+    const LineEdges at = line_edges(slot, line);
+    visit_spans(at, {0, static_cast<std::int32_t>(columns_)}, [&](const Interval& span) {
+      ready.fragments += static_cast<std::uint64_t>(span.end - span.begin);
+      cover_span(slot, at, span);
+    });
+  }
+  std::uint64_t seen = 0;
+  for (const std::uint64_t word : seen_) seen += static_cast<std::uint64_t>(std::popcount(word));
+  ready.covered = {careful_spans_.data(), careful_spans_.size(), seen};
+}
+
+void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span) {
+  const auto begin = static_cast<std::uint32_t>(span.begin);
+  const auto end = static_cast<std::uint32_t>(span.end);
+  careful_spans_.push_back({begin, end, &sources_[slot]});
+  for (std::uint32_t column = begin; column < end; ++column)
+    if (((at.depth + at.depth_step * column) & format_.mask()) != format_.mask())
+      seen_[column / 64] |= std::uint64_t{1} << (column % 64);
+}
+
+}  // namespace rastertlm::object_processor
