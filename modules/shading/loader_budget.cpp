@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "modules/shading/shared_load.h"
 #include "src/base/fixed_point.h"
 
 namespace rastertlm::shading {
@@ -117,8 +119,8 @@ class Budgets {
          moves + ramp_moves("diffuse"));
     const Work nine_bits = sizes_.diffuse_work(materials_, std::int64_t{1} << 9);
     time("diffuse9.load_sequencer", LoaderKind::sequencer, TableKind::diffuse, nine_bits,
-         fmt::format("{} materials x 2^9 x {} ns{}: what a 9-bit index would take", materials_,
-                     loader_.sequencer_clock_ns, shared),
+         fmt::format("{} x {} ns{}: what a 9-bit index would take", nine_bits.stores, loader_.sequencer_clock_ns,
+                     shared),
          "shading.materials" + units_key("diffuse") + ", " + kSequencerMoves);
   }
 
@@ -199,6 +201,41 @@ std::vector<LoadBudget> reload_budgets(const ShadingParameters& shading, const L
                    materials),
        kPathMoves + ", loader.diffuse.units, loader.specular.units" + level_steps},
   };
+}
+
+StoreTime shortest_store_time(const LoaderParameters& loader) {
+  if (loader.kind == LoaderKind::sequencer)
+    return {loader.sequencer_clock_ns, "the sequencer's clock period", kSequencerMoves};
+  const auto of = [](TableKind kind, double cycles, double clock_mhz, const std::string& moved_by) {
+    return StoreTime{1e3 * cycles / clock_mhz,
+                     fmt::format("{} cycles / {} MHz of the {} from store to store", cycles, clock_mhz,
+                                 kEngineNames[engine_of(kind)]),
+                     moved_by};
+  };
+  const auto of_ramp = [&of](TableKind kind, const std::string& table, const RampLoop& loop) {
+    return of(kind, loop.cycles_between_stores(), loop.clock_mhz,
+              loop.cycles > 0.0 ? fmt::format("loader.{0}.cycles, loader.{0}.clock_mhz", table)
+                                : fmt::format("{}, loader.{}.body_cycles", ramp_moves(table), table));
+  };
+  const auto sooner = [](const StoreTime& a, const StoreTime& b) { return a.ns < b.ns; };
+  return std::min(
+      {of_ramp(TableKind::diffuse_dot, "dot", loader.dot), of_ramp(TableKind::diffuse, "diffuse", loader.diffuse),
+       of(TableKind::specular, loader.specular.right_cycles, loader.specular.clock_mhz,
+          kPathProgramMoves + ", loader.specular.right_cycles")},
+      sooner);
+}
+
+std::int64_t path_moves_in(double time, const ShadingParameters& shading, const LoaderParameters& loader,
+                           std::int64_t materials) {
+  const Sizes sizes(shading, loader);
+  const double a_store = step_seconds(loader, TableKind::specular, false);
+  const double an_up = step_seconds(loader, TableKind::specular, true);
+  const double path = static_cast<double>(sizes.entries) * a_store + static_cast<double>(sizes.outputs - 1) * an_up;
+  const double left = time / static_cast<double>(share(materials, loader.specular.units)) -
+                      static_cast<double>(loader.argument_cycles) * an_up;
+  // A move that ends with the time is in it, whatever the last bit of a quotient says.
+  const double moves = left * static_cast<double>(sizes.moves()) / path + 1e-6;
+  return std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor(moves)));
 }
 
 std::vector<LoaderLogic> loader_logic(const ShadingParameters& shading, const LoaderParameters& loader) {

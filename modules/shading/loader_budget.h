@@ -33,6 +33,19 @@ double step_seconds(const LoaderParameters& loader, TableKind kind, bool is_up);
 // Time of a whole job, argument steps included.
 double job_seconds(const LoaderParameters& loader, const TableJob& job);
 
+// The shortest time that this machine's loaders leave a table between two stores.
+struct StoreTime {
+  double ns = 0.0;
+  std::string source;    // the formula
+  std::string moved_by;  // the parameters of the loader whose time it is
+};
+StoreTime shortest_store_time(const LoaderParameters& loader);
+
+// Whole moves that this machine's specular loader makes along a material's path, after the change of arguments, where
+// it has `seconds` for the largest share of `materials`. A move takes the mean of the path's stores and `up`s.
+std::int64_t path_moves_in(double seconds, const ShadingParameters& shading, const LoaderParameters& loader,
+                           std::int64_t materials);
+
 // Logic that the loaders of a machine are.
 struct LoaderLogic {
   std::string name;

@@ -50,6 +50,11 @@ double RampLoop::cycles_an_entry() const {
   return body_cycles + (unroll > 0 ? loop_cycles / static_cast<double>(unroll) : 0.0);
 }
 
+double RampLoop::cycles_between_stores() const {
+  if (cycles > 0.0) return cycles;
+  return body_cycles + (unroll == 1 ? loop_cycles : 0.0);
+}
+
 std::string RampLoop::text() const {
   if (cycles > 0.0) return fmt::format("{} cycles (as given)", cycles);
   const std::string name = preset.empty() ? "" : preset + ": ";
@@ -68,7 +73,7 @@ void LoaderParameters::declare(Table& table) {
                About{"",
                      "A load that does not fit the retrace: refuse it, or shade the lines from half-written tables and "
                      "count them.",
-                     "the picture, frames[].late_table_lines", Condition{"loader.when", {"retrace"}}});
+                     "the picture, images[].late_table_lines", Condition{"loader.when", {"retrace"}}});
   table.choice("loader.materials", materials, {"used", "all"},
                About{"", "Load the tables of materials that the scene uses, or of all that the machine has.", kTime});
   table.integer("loader.argument_cycles", argument_cycles, {0, 1000},

@@ -27,6 +27,8 @@ struct RampLoop {
   std::int64_t units = 1;    // loaders that share the work of one
 
   double cycles_an_entry() const;
+  // The fewest from one store to the next: of a loop that is unrolled, within a pass.
+  double cycles_between_stores() const;
   // How cycles_an_entry() comes about: "26 cycles (add_l_move_w: 16 + 10 / 1)".
   std::string text() const;
 };

@@ -59,7 +59,11 @@ bool SharedLoad::done() const {
   return std::all_of(loads_.begin(), loads_.end(), [](const TableLoad& load) { return load.done(); });
 }
 
-double SharedLoad::seconds() const { return *std::max_element(seconds_.begin(), seconds_.end()); }
+double SharedLoad::seconds() const { return seconds_[slowest_engine()]; }
+
+std::size_t SharedLoad::slowest_engine() const {
+  return static_cast<std::size_t>(std::max_element(seconds_.begin(), seconds_.end()) - seconds_.begin());
+}
 
 std::uint64_t SharedLoad::stores_done() const {
   std::uint64_t stores = 0;

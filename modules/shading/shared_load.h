@@ -12,6 +12,8 @@ namespace rastertlm::shading {
 
 // The three kinds of loaders: of dot-product tables, of diffuse and of specular ones.
 inline constexpr std::size_t kEngines = 3;
+inline constexpr std::array<const char*, kEngines> kEngineNames{"dot product loader", "diffuse loader",
+                                                                "specular loader"};
 std::size_t engine_of(TableKind kind);
 
 // Loaders that share the work of one table's kind.
@@ -36,6 +38,7 @@ class SharedLoad {
   // Of the slowest loader, of an engine or of all.
   double seconds(std::size_t engine) const { return seconds_[engine]; }
   double seconds() const;
+  std::size_t slowest_engine() const;  // the first of equal ones
   std::uint64_t stores_done() const;
 
   // The engine's loaders do what they can in `seconds` from the start of the load.

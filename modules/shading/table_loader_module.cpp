@@ -93,7 +93,10 @@ void TableLoaderModule::run_loads() {
 void TableLoaderModule::prepare() {
   plan();
   const double message = at_retrace() ? 0.0 : static_cast<double>(arrives_ps_ - swap_ps_) * 1e-12;
-  if (!first_) longest_load_seconds_ = std::max(longest_load_seconds_, load_.seconds() + message);
+  if (!first_ && load_.seconds() + message > longest_load_seconds_) {
+    longest_load_seconds_ = load_.seconds() + message;
+    longest_load_engine_ = load_.slowest_engine();
+  }
   if (first_ || !at_retrace()) {
     load();
     if (first_ && will_change_ && !at_retrace()) load_other_bank();

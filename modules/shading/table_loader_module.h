@@ -43,6 +43,7 @@ class TableLoaderModule : public sc_core::sc_module {
   bool tables_ahead() const { return ahead_; }
   // From the retrace that started it to its last word, the longest load after the first picture: the slowest loader's.
   double longest_load_seconds() const { return longest_load_seconds_; }
+  std::size_t longest_load_engine() const { return longest_load_engine_; }  // whose that was; 0 where there was none
   // Lines whose first pixel read a table that was not written to its end: of the frame whose lines were announced last,
   // and of all frames.
   std::uint64_t late_lines_of_frame() const { return late_lines_of_frame_; }
@@ -108,6 +109,7 @@ class TableLoaderModule : public sc_core::sc_module {
   tlm::tlm_generic_payload write_payload_;
   std::uint64_t words_sent_ = 0;
   double longest_load_seconds_ = 0.0;
+  std::size_t longest_load_engine_ = 0;
   std::uint64_t late_lines_of_frame_ = 0;
   std::uint64_t late_lines_ = 0;
 };

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "modules/shading/loader_budget.h"
 #include "src/run/budget.h"
 
@@ -28,13 +26,6 @@ void add_adders(const imogene::Machine& machine, double period, std::vector<Budg
                            false));
 }
 
-// The slowest time that every loader leaves a memory between two stores.
-double store_period_ns(const imogene::Machine& machine) {
-  const auto period = [&](shading::TableKind kind) { return 1e9 * shading::step_seconds(machine.loader, kind, false); };
-  return std::min({period(shading::TableKind::diffuse_dot), period(shading::TableKind::diffuse),
-                   period(shading::TableKind::specular)});
-}
-
 void add_tables(const imogene::Machine& machine, double period, std::vector<Budget>& budgets) {
   const shading::ShadingParameters& p = machine.shading;
   const std::string path =
@@ -42,11 +33,10 @@ void add_tables(const imogene::Machine& machine, double period, std::vector<Budg
                   p.table_set_up_ns, p.preset.empty() ? "" : fmt::format(" ({})", p.preset));
   budgets.push_back(budget("table_access", p.table_read_ns(), period, "ns", path + "; the pixel clock's period",
                            kReadMoves + ", video.pixel_clock_ns"));
-  const bool sequencer = machine.loader.kind == shading::LoaderKind::sequencer;
-  budgets.push_back(
-      budget("table_store", p.table_read_ns(), store_period_ns(machine), "ns",
-             path + (sequencer ? "; the sequencer's clock period" : "; the fastest 68000's time from store to store"),
-             kReadMoves + (sequencer ? ", loader.sequencer_clock_ns" : ", loader.diffuse.clock_mhz")));
+  // A memory must take the two stores that follow each other the soonest: the shortest time is what it has.
+  const shading::StoreTime store = shading::shortest_store_time(machine.loader);
+  budgets.push_back(budget("table_store", p.table_read_ns(), store.ns, "ns", path + "; " + store.source,
+                           kReadMoves + ", " + store.moved_by));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "modules/object_processor/microprogram.h"
+#include "modules/shading/shared_load.h"
 #include "src/run/budget.h"
 #include "src/run/delay_budgets.h"
 #include "src/run/table_budgets.h"
@@ -41,16 +42,23 @@ void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
              "decision_unit.topology, host.computation_units, host.processors_per_unit, video.vertical_retrace_us"));
 }
 
+// What an operation costs is said by these; those of the other cost model are refused.
+std::string arithmetic_keys(const host::HostParameters& host) {
+  return host.cost == host::CostModel::sustained ? "host.sustained_mflops" : "host.instruction, host.clock_hz";
+}
+
 void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
   const HostLoad load = host_load(platform);
   const bool moves = platform.animation().moves();
   const std::string which =
       fmt::format("computation unit {}, the slowest{}", load.unit, load.steady ? "" : ", when everything is new");
-  budgets.push_back(
-      budget("host.update", as_real(load.update.cycles), as_real(load.frame), "cycles",
-             which + ": links, arithmetic, waiting for the frame's grid, and bus; host cycles of a video frame",
-             "host.computation_units, host.sustained_mflops, host.assignment", moves));
   const host::HostParameters& host = platform.machine().host;
+  const std::string units_and_arithmetic = "host.computation_units, " + arithmetic_keys(host);
+  budgets.push_back(budget(
+      "host.update", as_real(load.update.cycles), as_real(load.frame), "cycles",
+      which + (load.steady ? ": links, arithmetic, waiting for the frame's grid, and bus" : ": arithmetic and bus") +
+          "; host cycles of a video frame",
+      units_and_arithmetic + ", host.assignment", moves));
   const double seconds = platform.timing().clock.seconds(platform.timing().frame);
   const bool sustained = host.cost == host::CostModel::sustained;
   const double a_flop = platform.cost().cycles_per_flop(load.update.operations);
@@ -62,11 +70,12 @@ void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
                    : fmt::format(": operations counted in the code that computes; video frame / {:.4g} cycles, "
                                  "the mean of these operations by the table of instructions, integer ones included",
                                  a_flop)),
-      sustained ? "host.computation_units, host.sustained_mflops" : "host.computation_units, host.instruction", moves));
-  budgets.push_back(budget(
-      "host.bus", as_real(load.update.writing), as_real(load.frame), "cycles",
-      fmt::format("{}: {} words x {} cycles", which, load.update.words, platform.machine().host.bus_cycles_per_word),
-      "host.bus_cycles_per_word, host.clock_hz", moves));
+      units_and_arithmetic, moves));
+  budgets.push_back(budget("host.bus", as_real(load.update.writing), as_real(load.frame), "cycles",
+                           fmt::format("{}: {} words x {} bus words a word x {} cycles", which, load.update.words,
+                                       platform.cost().bus_words(1), host.bus_cycles_per_word),
+                           "host.bus_bits, host.bus_cycles_per_word, object_processor.word_bits, host.clock_hz",
+                           moves));
   std::uint64_t used = 0;
   for (const auto& owners : platform.slots().boards) used += owners.size();
   budgets.push_back(budget(
@@ -85,7 +94,7 @@ void take(Bottleneck& worst, const std::string& unit, const std::string& resourc
 // late shows a wrong one.
 bool is_rate(const imogene::Machine& machine, const Budget& budget) {
   if (budget.name == "tables.update") return !late_tables_are_shown(machine);
-  return budget.name.starts_with("host.") || budget.name.starts_with("dot_table.");
+  return budget.name.starts_with("host.");
 }
 
 std::string limit_sentence(const Budget& b) {
@@ -113,7 +122,7 @@ Bottleneck find_bottleneck(Imogene& platform, const std::vector<Budget>& budgets
                        100.0 * as_real(host.update.computing) / as_real(host.update.cycles)),
            utilisation);
     else if (b.name == "tables.update")
-      take(worst, "dot product loader",
+      take(worst, shading::kEngineNames[platform.table_loader().longest_load_engine()],
            machine.loader.when == shading::LoadTime::retrace ? "time of the vertical retrace" : "time of a frame",
            utilisation);
     else if (b.name == "adder_delay")
@@ -200,8 +209,10 @@ Answer imogene_answer(Imogene& platform, const std::vector<Budget>& budgets) {
     const bool by_host = host.frames >= load_frames;
     answer.limits.push_back(fmt::format(
         "{} takes {} video frames for an update, so the picture changes {:.6g} times a second; it moves with {}",
-        by_host ? fmt::format("computation unit {}", host.unit) : "the dot product loader", update_frames,
-        answer.update_rate_hz, by_host ? "host.computation_units, host.sustained_mflops" : kLoaderKeys));
+        by_host ? fmt::format("computation unit {}", host.unit)
+                : fmt::format("the {}", shading::kEngineNames[platform.table_loader().longest_load_engine()]),
+        update_frames, answer.update_rate_hz,
+        by_host ? "host.computation_units, " + arithmetic_keys(machine.host) : kLoaderKeys));
   }
   for (const Budget& b : budgets)
     if (b.applies && !b.fits && !is_rate(machine, b)) {

@@ -74,6 +74,9 @@ TEST(LoaderBudget, NamesTheLoopAndHowOftenItIsUnrolled) {
   loader.diffuse.unroll = 0;
   EXPECT_EQ(source("dot_table.load_68000"), "6144 x 26 cycles (16 + 10 / 1) / 8 MHz");
   EXPECT_EQ(source("diffuse.load_68000"), "16384 x 16 cycles (add_l_move_w: straight line) / 16 MHz");
+  EXPECT_EQ(source("diffuse9.load_sequencer"), "8192 x 60 ns: what a 9-bit index would take");
+  loader.diffuse.units = 4;
+  EXPECT_EQ(source("diffuse9.load_sequencer"), "2048 x 60 ns, the largest share of 4: what a 9-bit index would take");
   loader.dot.cycles = 19.0;
   loader.dot.units = 3;
   EXPECT_EQ(source("dot_table.load_68000"), "2049 x 19 cycles (as given) / 8 MHz, the largest share of 3");
@@ -122,6 +125,65 @@ TEST(LoaderBudget, ClosedFormsEqualTheStepsOfTheJobs) {
         EXPECT_NEAR(1e6 * load.seconds(engine), budget, 1e-6) << tables[engine] << " of " << units;
       }
       EXPECT_EQ(time.size(), 6U * static_cast<std::size_t>(units));  // N.L, N.H, three colours, one specular table
+    }
+}
+
+// Between two entries of a pass there is no end of the loop, so the mean of a pass is not the shortest time. Dot: 26
+// cycles at 8 MHz; diffuse: 16 at 16 MHz, but where every entry is a pass; specular: 12 at 12.5 MHz.
+TEST(LoaderBudget, ShortestTimeBetweenStoresIsThatOfTheFastestLoaderWithinAPass) {
+  const auto expect = [](const LoaderParameters& loader, double ns, const std::string& named,
+                         const std::string& moved_by) {
+    const StoreTime store = shortest_store_time(loader);
+    EXPECT_NEAR(store.ns, ns, 1e-9);
+    EXPECT_THAT(store.source, testing::HasSubstr(named));
+    EXPECT_EQ(store.moved_by, moved_by);
+  };
+  LoaderParameters loader;
+  const std::string specular = "loader.specular.preset, loader.specular.clock_mhz, loader.specular.right_cycles";
+  const std::string diffuse =
+      "loader.diffuse.preset, loader.diffuse.clock_mhz, loader.diffuse.unroll, loader.diffuse.body_cycles";
+  expect(loader, 960.0, "12 cycles / 12.5 MHz of the specular loader", specular);
+  loader.specular.clock_mhz = 1.0;
+  for (const std::int64_t unroll : {0, 2, 4, 100}) {
+    loader.diffuse.unroll = unroll;
+    expect(loader, 1000.0, "16 cycles / 16 MHz of the diffuse loader", diffuse);
+  }
+  loader.diffuse.unroll = 1;
+  expect(loader, 1625.0, "26 cycles / 16 MHz of the diffuse loader", diffuse);
+  loader.diffuse.cycles = 18.0;
+  expect(loader, 1125.0, "18 cycles / 16 MHz of the diffuse loader", "loader.diffuse.cycles, loader.diffuse.clock_mhz");
+  loader.diffuse.clock_mhz = 1.0;
+  expect(loader, 3250.0, "26 cycles / 8 MHz of the dot product loader",
+         "loader.dot.preset, loader.dot.clock_mhz, loader.dot.unroll, loader.dot.body_cycles");
+  loader.kind = LoaderKind::sequencer;
+  expect(loader, 60.0, "the sequencer's clock period", "loader.sequencer_clock_ns");
+}
+
+// 600 us / 16 are 625 steps of 60 ns, one of them for the arguments. 20 ms / 16 are 1250 us, of which the arguments
+// take 8 cycles of 80 ns; a path's 1024 x 12 + 255 x 8 cycles, 1146.24 us, are 1279 moves.
+TEST(LoaderBudget, MovesInATimeAreThoseOfAMaterialsShareOfIt) {
+  const ShadingParameters parameters;
+  LoaderParameters loader;
+  EXPECT_EQ(path_moves_in(20e-3, parameters, loader, 16), std::floor((1250 - 0.64) * 1279 / 1146.24));
+  EXPECT_EQ(path_moves_in(0.1e-6, parameters, loader, 16), 0);
+  loader.kind = LoaderKind::sequencer;
+  EXPECT_EQ(path_moves_in(600e-6, parameters, loader, 16), 624);
+  loader.specular.units = 3;  // six materials each: 1666 steps
+  EXPECT_EQ(path_moves_in(600e-6, parameters, loader, 16), 1665);
+}
+
+// In the time of a whole load there is a whole path for each material, and in any less there is not.
+TEST(LoaderBudget, AWholePathIsMadeInTheTimeOfTheLoad) {
+  const ShadingParameters parameters;
+  for (const LoaderKind kind : {LoaderKind::mc68000, LoaderKind::sequencer})
+    for (const std::int64_t units : {1, 3, 5, 16}) {
+      LoaderParameters loader;
+      loader.kind = kind;
+      loader.specular.units = units;
+      const double load =
+          1e-6 * used(loader, kind == LoaderKind::mc68000 ? "specular.load_68000" : "specular.load_sequencer");
+      EXPECT_EQ(path_moves_in(load, parameters, loader, 16), 1279) << units;
+      EXPECT_EQ(path_moves_in(load * (1 - 1e-6), parameters, loader, 16), 1278) << units;
     }
 }
 

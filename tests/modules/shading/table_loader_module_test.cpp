@@ -64,6 +64,36 @@ TEST(TableLoaderModule, EnginesAreBusyForTheirOwnLoad) {
   for (std::size_t engine = 0; engine < 3; ++engine) m.loader.occupancy(engine, end).check("loader");
 }
 
+LightArguments dimmed(LightArguments light) {
+  light.intensity = {0.5, 0.5, 0.5};
+  return light;
+}
+
+// A light that dims has new levels, of which the specular path's 1280 steps are more than 1024 of a diffuse table; one
+// that turns has new dot products, 6144 steps; what comes after that and is shorter changes nothing.
+TEST(TableLoaderModule, TheLongestLoadSaysWhoseItWas) {
+  struct Load {
+    LightArguments light;
+    double us;
+    const char* whose;
+  };
+  Machine m(loader(LoaderKind::sequencer, LoadTime::retrace));
+  stream::Script script("script", [&] {
+    m.around.announce(true, kFirst);
+    for (const Load& load :
+         {Load{dimmed(kFirst), 1280 * 0.06, "specular loader"}, Load{kSecond, 6144 * 0.06, "dot product loader"},
+          Load{dimmed(kSecond), 6144 * 0.06, "dot product loader"}}) {
+      sc_core::wait(5, sc_core::SC_MS);
+      m.around.retrace(true);
+      m.around.announce(true, load.light);
+      sc_core::wait(5, sc_core::SC_MS);
+      EXPECT_NEAR(1e6 * m.loader.longest_load_seconds(), load.us, 1e-6);
+      EXPECT_STREQ(kEngineNames[m.loader.longest_load_engine()], load.whose);
+    }
+  });
+  stream::simulate();
+}
+
 // Registers go with a load: signs of L and H, ambient Ka Ia colour of every material, the background.
 TEST(TableLoaderModule, RegistersArrive) {
   Machine m(loader(LoaderKind::mc68000, LoadTime::frame));

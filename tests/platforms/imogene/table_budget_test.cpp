@@ -1,4 +1,5 @@
 // The figures of 004, section 5.3.6, from the report's result, and what each of them moves with.
+#include <cmath>
 #include <map>
 
 #include "src/config/presets.h"
@@ -33,6 +34,14 @@ class TableBudgetTest : public SimulationTest {
 
 constexpr double kFrameUs = 333'333 * 0.06;
 
+// Of a path of 12 cycles an input and 8 an output but the first, how many moves fit the share of one of 16 materials
+// behind the 8 cycles of its arguments: 80 ns each.
+double path_moves(double us, double inputs, double outputs) {
+  const double moves = inputs + outputs - 1;
+  const double path_us = (12 * inputs + 8 * (outputs - 1)) * 0.08;
+  return std::floor((us / 16 - 8 * 0.08) * moves / path_us);
+}
+
 TEST_F(TableBudgetTest, GivesTheFiguresOfThePaper) {
   const std::map<std::string, run::Budget> found = budgets();
   const auto expect = [&](const char* name, double used, double available, bool fits) {
@@ -54,7 +63,7 @@ TEST_F(TableBudgetTest, GivesTheFiguresOfThePaper) {
   expect("specular.load_sequencer", 1228.8, 600.0, false);
   expect("specular.load_68000", 16 * (1024 * 12 + 256 * 8) / 12.5, kFrameUs, true);
   expect("specular.paper_19ms", 18350.08, 19000.0, true);
-  expect("path_rom.moves", 1024 + 256 - 1, 1279, true);
+  expect("path_rom.moves", 1024 + 256 - 1, path_moves(kFrameUs, 1024, 256), true);
   expect("adder_delay", 48.0, 60.0, true);
   expect("adder_delay_unsliced", 96.0, 60.0, false);
   expect("table_access", 50.0, 60.0, true);
@@ -131,8 +140,13 @@ TEST_F(TableBudgetTest, EachMovesWithItsParameters) {
   const Settings nine{"shading.index_bits=9"};
   expect(nine, "diffuse.load_68000", 8192 * 18.5 / 16, kFrameUs, true);
   expect(nine, "diffuse.load_sequencer", 491.52, 600.0, true);
-  expect(nine, "path_rom.moves", 512 + 256 - 1, 767, true);
-  expect({"shading.level_bits=7"}, "path_rom.moves", 1024 + 128 - 1, 1151, true);
+  expect(nine, "path_rom.moves", 512 + 256 - 1, path_moves(kFrameUs, 512, 256), true);
+  expect({"shading.level_bits=7"}, "path_rom.moves", 1024 + 128 - 1, path_moves(kFrameUs, 1024, 128), true);
+  // 20 ms / 16 materials / 60 ns, and a step for the arguments; the retrace, 5 of 10,005 clocks longer at 64 lines.
+  expect(wired, "path_rom.moves", 1279, std::floor(333'333 / 16.0) - 1, true);
+  expect(with(wired, "loader.when=retrace"), "path_rom.moves", 1279, std::floor(10'005 / 16.0) - 1, false);
+  expect(with(with(wired, "loader.when=retrace"), "loader.specular.units=3"), "path_rom.moves", 1279,
+         std::floor(10'005 / 6.0) - 1, true);
   // Clocks that would fit the retrace: 36.6 and 29.3 ns.
   expect(with(wired, "loader.sequencer_clock_ns=36.6"), "diffuse.load_sequencer", 599.6544, 600.0, true);
   expect(with(wired, "loader.sequencer_clock_ns=36.7"), "diffuse.load_sequencer", 601.2928, 600.0, false);
@@ -148,8 +162,48 @@ TEST_F(TableBudgetTest, EachMovesWithItsParameters) {
   expect({"loader.dot.units=3"}, "dot_table.load_sequencer", 2049 * 0.06, 600.0, true);
   expect({"shading.preset=cy7c162_45"}, "table_access", 60.0, 60.0, true);
   expect({"shading.table_access_ns=45.5"}, "table_access", 60.5, 60.0, false);
+  expect({"loader.specular.clock_mhz=20"}, "table_store", 50.0, 600.0, true);
+  // The diffuse loader: 16 cycles of 62.5 ns between two entries of a pass, 26 where each entry is a pass.
+  expect({"loader.specular.clock_mhz=1"}, "table_store", 50.0, 1000.0, true);
+  expect({"loader.specular.clock_mhz=1", "loader.diffuse.unroll=1"}, "table_store", 50.0, 1625.0, true);
+  expect({"loader.specular.clock_mhz=1", "loader.diffuse.cycles=12"}, "table_store", 50.0, 750.0, true);
   expect({"object_processor.slice_bits=8"}, "adder_delay", 32.0, 60.0, true);
   expect({"object_processor.adder_ns_per_bit=2.5"}, "adder_delay_unsliced", 60.0, 60.0, true);
+}
+
+// What a line says of itself: the loader whose time it is, and the share that it is of.
+TEST_F(TableBudgetTest, NamesTheKeysOfTheLoaderThatItIsOf) {
+  const auto moved_by = [this](const Settings& set) { return budgets(set).at("table_store").moved_by; };
+  EXPECT_NE(moved_by({}).find("loader.specular.clock_mhz"), std::string::npos);
+  EXPECT_EQ(moved_by({}).find("loader.diffuse"), std::string::npos);
+  const std::string slow = "loader.specular.clock_mhz=1";
+  EXPECT_NE(moved_by({slow}).find("loader.diffuse.clock_mhz"), std::string::npos);
+  EXPECT_EQ(moved_by({slow}).find("loader.specular"), std::string::npos);
+  EXPECT_NE(moved_by({slow, "loader.diffuse.cycles=12"}).find("loader.diffuse.cycles"), std::string::npos);
+}
+
+// 6144 x 98 ns are more than the 600 us that the paper has, and less than the 10,261 clocks of 60 ns that 512 lines
+// leave: what the machine depends on is the second.
+TEST_F(TableBudgetTest, TheRetraceThatAppliesIsTheObtainedOne) {
+  const run::Result result =
+      show(scene_of(kSphere, std::string(kCamera) + "[[camera.animation]]\ntype = \"orbit\"\ndeg_per_frame = 9.0\n"),
+           {.set = {"video.columns=64", "loader.kind=sequencer", "loader.when=retrace", "loader.sequencer_clock_ns=98"},
+            .frames = 3,
+            .reference = false,
+            .pictures = false})
+          .result;
+  const auto expect = [&result](const char* name, double available, bool fits, bool applies) {
+    const run::Budget& budget = named(result.budgets, name);
+    EXPECT_NEAR(budget.used, 6144 * 0.098, 1e-6) << name;
+    EXPECT_NEAR(budget.available, available, 1e-6) << name;
+    EXPECT_EQ(budget.fits, fits) << name;
+    EXPECT_EQ(budget.applies, applies) << name;
+  };
+  expect("dot_table.load_sequencer", 600.0, false, false);
+  expect("tables.update", 10'261 * 0.06, true, true);
+  EXPECT_TRUE(result.answer.sustained);
+  EXPECT_EQ(result.answer.bottleneck.unit, "dot product loader");
+  EXPECT_NO_THROW(named(result.units, result.answer.bottleneck.unit));
 }
 
 // A memory that is too slow for the pixel clock, or for its sequencer, makes a display that does not work.
