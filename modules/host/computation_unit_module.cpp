@@ -115,12 +115,17 @@ void ComputationUnitModule::fit_and_write(const Message& plan) {
   update_.operations += counts;
   const Cycles computing = cost_.compute(counts);
   update_.computing += computing;
-  cut_into_segments(loads, computing);
-  for (const Segment& segment : segments_) update_.words += segment.words;
+  for (const Load& load : loads) update_.words += words_of(load);
   update_.writing = cost_.bus(update_.words);
   load_ = word_ = 0;
   const BusSchedule schedule = first_ ? BusSchedule(cost_.clock()) : BusSchedule(cost_.clock(), copies_, swap_ps_);
-  for (BusBurst burst(schedule, segments_, cost_.word(), cycles_since_swap()); !burst.done();) {
+  const Cycles start = cycles_since_swap();
+  // Where no copy comes any more, the order of words and arithmetic moves nothing.
+  if (schedule.next(start))
+    cut_into_segments(loads, computing);
+  else
+    segments_.assign(1, {computing, update_.words});
+  for (BusBurst burst(schedule, segments_, cost_.word(), start); !burst.done();) {
     const BusBurst::Step step = burst.step();
     write_words(loads, step.words);
     const std::uint64_t bus_words = cost_.bus_words(step.words);  // the bus' clock moves one a cycle

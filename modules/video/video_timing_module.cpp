@@ -17,6 +17,7 @@ VideoTimingModule::VideoTimingModule(const sc_core::sc_module_name& name, const 
       sync("sync", listeners),
       ready("ready", computation_units),
       timing_(timing),
+      hears_lines_(listeners, 1),
       lines_(lines),
       frames_(frames),
       patience_(patience),
@@ -34,9 +35,11 @@ void VideoTimingModule::announce(SyncPayload::Kind kind, std::size_t line, Cycle
   payload_.frame = shown_ / timing_.fields;
   payload_.line = line;
   const sc_core::sc_time since = stream::to_time(timing_.clock, since_frame_start);
-  for (auto& socket : sync) {
-    sc_core::sc_time delay = since;
-    socket->b_transport(payload_, delay);
+  const sc_core::sc_time starts = stream::to_time(timing_.clock, since_frame_start);
+  for (std::size_t listener = 0; listener < sync.size(); ++listener) {
+    if (kind == SyncPayload::Kind::line && hears_lines_[listener] == 0) continue;
+    sc_core::sc_time delay = starts;
+    sync[listener]->b_transport(payload_, delay);
   }
 }
 

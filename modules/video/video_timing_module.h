@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <systemc>
+#include <vector>
 
 #include "modules/stream/line_payload.h"
 #include "modules/video/timing.h"
@@ -33,6 +34,9 @@ class VideoTimingModule : public sc_core::sc_module {
                     std::size_t computation_units, std::uint64_t frames, std::uint64_t patience,
                     Copy copy = Copy::when_ready);
 
+  // Before the simulation: what this listener does depends on no line.
+  void announce_retraces_alone(std::size_t listener) { hears_lines_.at(listener) = 0; }
+
   // Picoseconds at which the first displayed frame's retrace began, and the number of video frames that began with a
   // new frame of objects, wholly written.
   std::uint64_t first_frame_ps() const { return first_frame_ps_; }
@@ -56,6 +60,7 @@ class VideoTimingModule : public sc_core::sc_module {
   void announce(stream::SyncPayload::Kind kind, std::size_t line, Cycles since_frame_start);
 
   Timing timing_;
+  std::vector<std::uint8_t> hears_lines_;  // one a listener
   std::size_t lines_;
   std::uint64_t frames_;
   std::uint64_t patience_;

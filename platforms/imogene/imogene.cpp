@@ -322,6 +322,9 @@ void Imogene::bind_display() {
   const std::size_t boards = board_modules_.size();
   video_timing_->sync[0].bind(table_loader_->sync);
   video_timing_->sync[1].bind(shading_module_->sync);
+  // Lines concern tables only where they are shown half-written.
+  if (machine_.loader.on_overrun != shading::Overrun::show) video_timing_->announce_retraces_alone(0);
+  video_timing_->announce_retraces_alone(1);
   for (std::size_t k = 0; k < boards; ++k) {
     video_timing_->sync[k + 2].bind(board_modules_[k]->sync);
     board_modules_[k]->out.bind(decision_module_->in[k]);

@@ -165,6 +165,20 @@ TEST(VideoTimingModule, KeepsThePictureOfALateHost) {
   EXPECT_EQ(screen.listeners.heard.size(), 5 * 2 * (1 + kLines));
 }
 
+TEST(VideoTimingModule, LinesMayBeKeptFromAListener) {
+  Screen screen(2, 10);
+  screen.video.announce_retraces_alone(0);
+  screen.set_all(true);
+  stream::simulate();
+  std::size_t lines = 0;
+  std::size_t retraces = 0;
+  for (const Heard& one : screen.listeners.heard)
+    if (one.listener == 0) (one.retrace ? retraces : lines) += 1;
+  EXPECT_EQ(lines, 0U);
+  EXPECT_EQ(retraces, 2U);
+  EXPECT_EQ(screen.listeners.heard.size(), 2U * (1 + kLines) + 2);
+}
+
 // Copied at every retrace: once there is a picture, whatever stands in the loading RAMs is shown; the hosts go on, and
 // an update is counted, where everything was ready.
 TEST(VideoTimingModule, CopiesAtEveryRetraceAfterTheFirstPicture) {
