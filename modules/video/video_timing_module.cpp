@@ -35,10 +35,9 @@ void VideoTimingModule::announce(SyncPayload::Kind kind, std::size_t line, Cycle
   payload_.frame = shown_ / timing_.fields;
   payload_.line = line;
   const sc_core::sc_time since = stream::to_time(timing_.clock, since_frame_start);
-  const sc_core::sc_time starts = stream::to_time(timing_.clock, since_frame_start);
   for (std::size_t listener = 0; listener < sync.size(); ++listener) {
     if (kind == SyncPayload::Kind::line && hears_lines_[listener] == 0) continue;
-    sc_core::sc_time delay = starts;
+    sc_core::sc_time delay = since;
     sync[listener]->b_transport(payload_, delay);
   }
 }

@@ -266,11 +266,11 @@ void Imogene::build_shading() {
       "table_loader", shader_, machine_.loader, loaded_materials(machine_, scene_),
       timing_.clock.picoseconds(timing_.vertical_retrace), video_timing_->swapped,
       std::array<shading::TableLoaderModule::Engine, 3>{
-          engine("dot product loader", shading::TableKind::diffuse_dot, machine_.loader.dot.clock_mhz,
+          engine(shading::kEngineNames[0], shading::TableKind::diffuse_dot, machine_.loader.dot.clock_mhz,
                  machine_.shading.dot_table_output_bits, 2 * lights),
-          engine("diffuse loader", shading::TableKind::diffuse, machine_.loader.diffuse.clock_mhz,
+          engine(shading::kEngineNames[1], shading::TableKind::diffuse, machine_.loader.diffuse.clock_mhz,
                  machine_.shading.level_bits, 3 * lights),
-          engine("specular loader", shading::TableKind::specular, machine_.loader.specular.clock_mhz,
+          engine(shading::kEngineNames[2], shading::TableKind::specular, machine_.loader.specular.clock_mhz,
                  machine_.shading.level_bits, machine_.shading.specular_tables * lights)});
 }
 
@@ -322,8 +322,8 @@ void Imogene::bind_display() {
   const std::size_t boards = board_modules_.size();
   video_timing_->sync[0].bind(table_loader_->sync);
   video_timing_->sync[1].bind(shading_module_->sync);
-  // Lines concern tables only where they are shown half-written.
-  if (machine_.loader.on_overrun != shading::Overrun::show) video_timing_->announce_retraces_alone(0);
+  // A line concerns tables only where they are written while it is announced.
+  if (machine_.loader.when == shading::LoadTime::frame) video_timing_->announce_retraces_alone(0);
   video_timing_->announce_retraces_alone(1);
   for (std::size_t k = 0; k < boards; ++k) {
     video_timing_->sync[k + 2].bind(board_modules_[k]->sync);
@@ -456,8 +456,7 @@ void Imogene::check_identities() {
         decided.fragments_kept + decided.fragments_hidden);
   equal("shading processor", "pixels shaded = fragments kept", shader_.counters().pixels, decided.fragments_kept);
   equal("table loader", "words sent = words loaded", table_loader_->words_sent(), shading_module_->words_loaded());
-  const char* const loaders[] = {"dot product loader", "diffuse loader", "specular loader"};
-  for (std::size_t i = 0; i < books_.table_loaders.size(); ++i) books_.table_loaders[i].check(loaders[i]);
+  for (std::size_t i = 0; i < books_.table_loaders.size(); ++i) books_.table_loaders[i].check(shading::kEngineNames[i]);
   equal("video output", "lines shown = lines of all frames", video_output_->lines_shown(),
         options_.frames * static_cast<std::uint64_t>(machine_.video.lines));
 }

@@ -51,10 +51,9 @@ std::vector<UnitFigures> unit_figures(Imogene& platform) {
   const std::uint64_t pixels = platform.decision_module().lines_sent() * columns_of(platform);
   for (const char* name : {"decision unit", "shading processor", "video output"})
     units.push_back(display_unit(name, platform, shown, pixels));
-  const char* const engines[] = {"dot product loader", "diffuse loader", "specular loader"};
   for (std::size_t engine = 0; engine < shading::TableLoaderModule::kEngines; ++engine)
-    units.push_back(
-        figures(engines[engine], platform.table_loader().clock(engine), platform.books().table_loaders[engine]));
+    units.push_back(figures(shading::kEngineNames[engine], platform.table_loader().clock(engine),
+                            platform.books().table_loaders[engine]));
   return units;
 }
 
