@@ -42,8 +42,8 @@ struct StoreTime {
 StoreTime shortest_store_time(const LoaderParameters& loader);
 
 // Whole moves that this machine's specular loader makes along a material's path, after the change of arguments, where
-// it has `seconds` for the largest share of `materials`. A move takes the mean of the path's stores and `up`s.
-std::int64_t path_moves_in(double seconds, const ShadingParameters& shading, const LoaderParameters& loader,
+// it has `time` seconds for the largest share of `materials`. A move takes the mean of the path's stores and `up`s.
+std::int64_t path_moves_in(double time, const ShadingParameters& shading, const LoaderParameters& loader,
                            std::int64_t materials);
 
 // Logic that the loaders of a machine are.

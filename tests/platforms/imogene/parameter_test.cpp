@@ -1,7 +1,6 @@
 // Every parameter of the machine's and the scene's tables moves something: a picture or a figure of the report, where a
 // suitable scene gives it a chance. What is exempt by its declaration moves nothing.
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 
@@ -265,20 +264,25 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
   std::map<std::string, std::string> seen_;
 };
 
+// The text of a section of report.json: "" where there is none.
+std::string section_of(const std::string& json, const std::string& name) {
+  const std::string line = "\n  \"";  // of a key of the whole
+  const std::size_t begin = json.find(line + name + "\":");
+  return begin == std::string::npos ? "" : json.substr(begin, json.find(line, begin + 1) - begin);
+}
+
 // "images[].torn" or "answer.update_rate_hz" in what a parameter moves is a key of report.json.
 TEST_F(ParameterTest, TheFiguresThatItNamesAreInTheReport) {
   const Simulated simulated = simulate(kMachine, kTeapot, {.set = {"video.columns=64", "video.lines=64"}});
-  const nlohmann::json report = nlohmann::json::parse(report::json_text({simulated.result, false}));
+  const std::string json = report::json_text({simulated.result, false});
   const std::regex figure(R"(\b([a-z_]+)(\[\])?\.([a-z_]+))");
   std::size_t figures = 0;
   const std::map<std::string, Parameter> paths = paths_of("machine imogene");
   for (const auto& [path, p] : paths)
     for (std::sregex_iterator found(p.about.moves.begin(), p.about.moves.end(), figure), end; found != end; ++found) {
       if (paths.contains(found->str())) continue;  // another parameter
-      const std::string section = (*found)[1];
-      ASSERT_TRUE(report.contains(section)) << path << " moves " << found->str();
-      const nlohmann::json& holder = (*found)[2].matched ? report[section].at(0) : report[section];
-      EXPECT_TRUE(holder.contains(std::string((*found)[3]))) << path << " moves " << found->str();
+      EXPECT_NE(section_of(json, (*found)[1]).find('"' + found->str(3) + "\":"), std::string::npos)
+          << path << " moves " << found->str();
       ++figures;
     }
   EXPECT_GT(figures, 15U);
