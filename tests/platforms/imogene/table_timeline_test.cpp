@@ -33,8 +33,8 @@ TEST_F(LateTablesTest, KeepTheOldPictureAndItsTables) {
   EXPECT_NEAR(simulated.result.answer.update_rate_hz, 1e12 / (333'333 * 60'000.0) / kLate, 1e-6);
   EXPECT_FALSE(simulated.result.answer.sustained);
   EXPECT_EQ(simulated.result.answer.bottleneck.unit, "dot product loader");
-  // The animation unit starts three messages to units, 19 cycles of 50 ns each, and writes a header of two words and nine
-  // of the light, three cycles each.
+  // The animation unit starts three messages to units, 19 cycles of 50 ns each, and writes a header of two words and
+  // nine of the light, three cycles each.
   constexpr double kMessage = (3 * 19 + 11 * 3) * 0.05;
   EXPECT_NEAR(named(simulated.result.budgets, "tables.update").used, kMessage + 6144 * 26 / 3.0, 1e-3);
   for (std::size_t k = 1; k < kFrames; ++k)
