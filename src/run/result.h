@@ -89,7 +89,7 @@ struct Modelled {
   std::uint64_t processors_instantiated = 0;  // simulated
   std::uint64_t lines_total = 0;              // scan lines x boards
   std::uint64_t lines_evaluated = 0;          // on which a board had something to do
-  std::uint64_t coefficients_total = 0;       // words that a host which sends all would have written
+  std::uint64_t coefficients_total = 0;       // 22 for every slot that holds an object, an update
   std::uint64_t coefficients_sent = 0;
   std::uint64_t objects_made = 0;        // triangles of the scene
   std::uint64_t objects_degenerate = 0;  // of zero area as made
