@@ -24,6 +24,9 @@
 
 namespace rastertlm::imogene {
 
+// A machine that has shown nothing after so many video frames never will, and hosts that have not finished.
+inline constexpr std::uint64_t kPatienceFrames = 100'000;
+
 struct Options {
   std::uint64_t frames = 1;       // to show; of interlaced video, of two fields each
   bool model_everything = false;  // evaluate every processor on every line
