@@ -14,7 +14,7 @@ std::string head(const VectorsManifest& v) {
       R"(# Vectors of displayed frame {frame}{field}
 
 Stimulus and expected response for an RTL of the object machine (I.M.O.G.E.N.E.: {boards} boards of {slots} triangle processors, {topology}),
-{columns} x {lines} pixels. {objects} processors hold an object; {listed} have files here. Everything is what the simulated machine held and gave, bit for bit;
+{columns} x {lines} pixels. {objects} processors show an object (the slots of the others are parked); {listed} have files here. Everything is what the simulated machine held and gave, bit for bit;
 two runs write the same bytes.
 
 | file | what |
@@ -191,15 +191,16 @@ Cycle 0 is the first step of the frame-start microprogram (Select) in processor 
 
 {rows} The frame start takes {frame_start} cycles. The line start takes {line_start} cycles, and its last step is
 the cycle before that of column 0: {starts} {skew} From a pixel's words to the decision unit's output there
-are {prenormalisation} cycles of pre-normalisation and {decision} of comparison; from there to the levels {shading}. A test bench whose sequencer does not wait for a video
+are {prenormalisation} cycle(s) of pre-normalisation and {decision} of comparison; from there to the levels {shading}. A test bench whose sequencer does not wait for a video
 line compares the same rows in the same order; only the cycles of lines differ.
 
 An output "of a cycle" is what stands in the register during that cycle, before the clock edge that ends it.
 
 ## Once more
 
-`rastertlm vectors config.resolved.toml scene.resolved.toml --frame {frame}{field} --out DIR` writes these files again. A run into this directory replaces its
-files, so keep what is yours elsewhere.
+`rastertlm vectors config.resolved.toml scene.resolved.toml --frame {frame}{field} --out DIR` writes the same vectors again, of the same processors with
+`--processors` as it was given; the notes of origin in `*.resolved.toml`, and so their digests in the manifest, then name these files. A run into this
+directory replaces its files, so keep what is yours elsewhere.
 )",
       fmt::arg("clock", t.pixel_clock_ns), fmt::arg("last_x", v.machine.columns - 1), fmt::arg("first_y", v.field),
       fmt::arg("last_y", v.machine.lines - v.machine.fields + v.field), fmt::arg("word0", t.first_pixel_word_cycle),

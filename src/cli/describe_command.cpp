@@ -21,17 +21,20 @@ namespace {
 
 using report::TextTable;
 
-// The first comment of a TOML text: what it says about itself.
+// What a TOML text says about itself: the first sentence of the comment that it begins with. It ends where a full stop
+// is followed by a capital, for abbreviations have full stops too.
 std::string first_comment(const std::string& text) {
-  std::size_t begin = 0;
-  while (begin < text.size()) {
+  std::string comment;
+  for (std::size_t begin = 0; begin < text.size() && text[begin] == '#';) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (text[begin] != '#') return {};
     const std::size_t start = std::min(text.find_first_not_of("# ", begin), end);
-    if (start < end) return text.substr(start, end - start);
+    if (start < end) comment += (comment.empty() ? "" : " ") + text.substr(start, end - start);
     begin = end + 1;
   }
-  return {};
+  for (std::size_t stop = comment.find(". "); stop != std::string::npos; stop = comment.find(". ", stop + 1))
+    if (stop + 2 < comment.size() && comment[stop + 2] >= 'A' && comment[stop + 2] <= 'Z')
+      return comment.substr(0, stop);
+  return comment;
 }
 
 // The files of a folder below the working directory.

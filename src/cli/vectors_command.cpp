@@ -18,7 +18,7 @@ void print_summary(const report::VectorsManifest& manifest, const std::string& d
   using report::grouped;
   const report::VectorsTiming& t = manifest.timing;
   std::string text = fmt::format(
-      "Frame {}{}: {} of {} processors hold an object; words of {} are written.\n"
+      "Frame {}{}: {} of {} processors show an object; words of {} are written.\n"
       "First and last pixel, in cycles of the pixel clock from the frame's first microinstruction: {} and {} at the "
       "decision unit's output, {} and {} at the RGB output.\n",
       manifest.frame, manifest.machine.fields == 1 ? std::string() : fmt::format(", field {}", manifest.field),

@@ -16,9 +16,10 @@ constexpr int kStoredDigits = 9;
 
 bool is_exact_integer(double value) { return std::abs(value) < kExactIntegers && std::floor(value) == value; }
 
-// Four significant digits without an exponent where that is short.
+// Four significant digits without an exponent where that is short, and all digits before the point.
 std::string short_text(double value) {
-  const double rounded = to_significant(value, 4);
+  const double rounded =
+      std::abs(value) >= 1000.0 && std::abs(value) < 1e9 ? std::round(value) : to_significant(value, 4);
   if (rounded != 0.0 && (std::abs(rounded) < 1e-4 || std::abs(rounded) >= 1e9)) return fmt::format("{:.3e}", value);
   if (std::abs(rounded) >= 1000.0)
     return fmt::format("{}{}", rounded < 0.0 ? "-" : "", grouped(static_cast<std::uint64_t>(std::abs(rounded))));

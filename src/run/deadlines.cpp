@@ -84,12 +84,17 @@ void DeadlineMeter::add_host(const imogene::ShownFrame& shown, FrameFigures& fig
   const double slack_us =
       (static_cast<double>(frame_ps) - static_cast<double>(host_clock_.picoseconds(shown.host_cycles))) /
       kPicosecondsPerMicrosecond;
+  if (shown.frame == 0 && shown.field == 0) return;  // the initial load
   figures.host_slack_us = figures.host_slack_us ? std::min(*figures.host_slack_us, slack_us) : slack_us;
-  if (shown.frame == 0 && shown.field == 0) return;                    // the initial load
   const Cycles has = host_clock_.cycles_at(frame_ps + 1) - Cycles(1);  // that end by then
   const auto slack = static_cast<std::int64_t>(has.count()) - static_cast<std::int64_t>(shown.host_cycles.count());
   if (slack < worst_.host.slack_cycles)
-    worst_.host = {true, shown.frame, shown.host_frames, shown.host_cycles.count(), slack, slack_us};
+    worst_.host = {true,
+                   shown.frame,
+                   (host_clock_.picoseconds(shown.host_cycles) + frame_ps - 1) / frame_ps,
+                   shown.host_cycles.count(),
+                   slack,
+                   slack_us};
 }
 
 Deadlines DeadlineMeter::close(imogene::Imogene& platform) {

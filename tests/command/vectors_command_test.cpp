@@ -36,7 +36,7 @@ TEST_F(VectorsCommandTest, WritesAndSaysWhere) {
   const Outcome outcome = vectors({"--out", "o", "--frame", "1"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, IsEmpty());
-  EXPECT_THAT(outcome.out, StartsWith("Frame 1: 1 of 32 processors hold an object; words of 1 are written.\n"));
+  EXPECT_THAT(outcome.out, StartsWith("Frame 1: 1 of 32 processors show an object; words of 1 are written.\n"));
   EXPECT_THAT(outcome.out, HasSubstr("o/README.md, manifest.json: "));
   EXPECT_EQ(names(), (std::set<std::string>{"machine.toml", "scene.toml", "o"}));
   EXPECT_EQ(file_text(in_work("o/board0_processor0_material.hex")), "00\n");

@@ -40,7 +40,9 @@ TEST(NumberText, PrintsQuantitiesWithTheirUnits) {
   EXPECT_EQ(quantity(333'333.0), "333,333");
   EXPECT_EQ(quantity(-2.0), "-2");
   EXPECT_EQ(quantity(0.12345), "0.1235");
-  EXPECT_EQ(quantity(12'345.6), "12,350");
+  EXPECT_EQ(quantity(12'345.6), "12,346");
+  EXPECT_EQ(quantity(999.96), "1,000");
+  EXPECT_EQ(quantity(-1234.5), "-1,235");
   EXPECT_EQ(quantity(std::numeric_limits<double>::infinity()), "unlimited");
   EXPECT_EQ(percent(0.8376), "84 %");
   EXPECT_EQ(percent(0.00416), "0.42 %");
