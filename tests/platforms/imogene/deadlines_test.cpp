@@ -10,7 +10,6 @@
 namespace rastertlm::test {
 namespace {
 
-using testing::TestWithParam;
 
 const std::string kTurning = scene_of(std::string(kSphere) + kSpin);
 const std::string kTurningCamera =

@@ -86,7 +86,8 @@ TEST(TextReport, NamesTheWorstLineAndItsSlack) {
   EXPECT_TRUE(holds(text, "Deadlines\n========="));
   expect_parts("  scan line  ", {"frame 1, line 347", "229,337  229,349", "-12", "-0.72", "table load"});
   expect_parts("  vertical retrace  ", {"frame 1", "10,261        8", "10,253", "615.18", "frame start"});
-  expect_parts("  hosts' update  ", {"frame 1", "399,999", "39,219", "1960.98", "host cycles of a video frame; it takes 2 video frames"});
+  expect_parts("  hosts' update  ",
+               {"frame 1", "399,999", "39,219", "1960.98", "host cycles of a video frame; it takes 2 video frames"});
   run::Result still = example_result();
   still.deadlines.host.shown = false;
   EXPECT_TRUE(holds(line_with(text_report({still, false}), "  hosts' update  "), "the next one"));
