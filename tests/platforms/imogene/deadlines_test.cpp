@@ -10,7 +10,6 @@
 namespace rastertlm::test {
 namespace {
 
-
 const std::string kTurning = scene_of(std::string(kSphere) + kSpin);
 const std::string kTurningCamera =
     scene_of(kSphere, std::string(kCamera) +
