@@ -49,7 +49,8 @@ Counted counted(const World& world, const MachineFormat& format, bool guarded) {
         needs_guard = !geometry::within_samples(screen[k], format.grids.on_screen, format.viewport);
       }
       if (needs_guard) {
-        for (const auto& piece : set_up::pieces(corners, band, format.viewport).list())
+        const auto pieces = set_up::pieces(corners, band, format.viewport);
+        for (const auto& piece : pieces.list())
           keep(set_up::set_up_triangle(piece, mesh.material[t], two_sided, band.grid, format.words));
       } else {
         keep(set_up::set_up_triangle(screen, mesh.material[t], two_sided, grid, format.words));
