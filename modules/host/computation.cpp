@@ -1,6 +1,7 @@
 #include "modules/host/computation.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace rastertlm::host {
@@ -11,7 +12,7 @@ using set_up::Outcome;
 
 namespace {
 
-constexpr std::size_t kAhead = 4;  // triangles
+constexpr std::size_t kAhead = 8;  // triangles
 
 // Adds what is counted while it lives to `sum`.
 class CountedStep {
@@ -37,11 +38,14 @@ TriangleCounts& TriangleCounts::operator+=(const TriangleCounts& other) {
   return *this;
 }
 
-Computation::Computation(const ResidentScene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners)
+Computation::Computation(const ResidentScene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners,
+                         VectorVariant variant)
     : scene_(scene),
       format_(format),
       paths_(count_paths()),
-      guarded_frame_(geometry::frame_grid(format.grids, true, format.viewport)) {
+      guarded_frame_(geometry::frame_grid(format.grids, true, format.viewport)),
+      kernels_(set_up::triangle_kernels(variant)),
+      object_corners_{} {
   std::vector<std::size_t> first_object;  // number of the first triangle of each mesh
   std::size_t count = 0;
   for (const ResidentObject& object : scene.objects) {
@@ -68,34 +72,35 @@ Computation::Computation(const ResidentScene& scene, const MachineFormat& format
   }
   for (std::uint32_t slot = 0; slot < format.slots; ++slot)
     if (!owned[slot]) free_slots_.push_back(slot);
+  screen_.resize((triangles_.size() + kLanes - 1) / kLanes);
   object_to_clip_.resize(scene.objects.size());
   loads_.reserve(triangles_.size());
 }
 
 Survey Computation::survey(const FrameWork& work) {
   work_ = &work;
-  std::vector<std::uint8_t> has_matrix(scene_.objects.size(), 0);
+  for (Triangle& triangle : triangles_) triangle.renewed = work.renew[triangle.mesh] != 0;
+  prepare_matrices();
   Survey survey;
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    Triangle& triangle = triangles_[i];
-    if (i + kAhead < triangles_.size()) prefetch(triangles_[i + kAhead]);
-    triangle.renewed = work.renew[triangle.mesh] != 0;
-    if (triangle.renewed) {
-      if (has_matrix[triangle.mesh] == 0) {
-        object_to_clip_[triangle.mesh] =
-            matrix_product<double>(work.pose.eye_to_clip, work.pose.object_to_eye[triangle.mesh]);
-        operations_ += paths_.matrix;
-        has_matrix[triangle.mesh] = 1;
-      }
-      transform(triangle);
-    }
-    survey.guarded = survey.guarded || triangle.needs_guard;
-  }
+  for (std::size_t number = 0; number < screen_.size(); ++number) transform(block(number), screen_[number]);
+  for (const Triangle& triangle : triangles_) survey.guarded = survey.guarded || triangle.needs_guard;
   allocate(survey);
   return survey;
 }
 
-// A unit's triangles lie apart in the mesh: what the next ones need is asked for while this one is computed.
+// Of every object that has a renewed triangle here.
+void Computation::prepare_matrices() {
+  std::vector<std::uint8_t> has_matrix(scene_.objects.size(), 0);
+  for (const Triangle& triangle : triangles_) {
+    if (!triangle.renewed || has_matrix[triangle.mesh] != 0) continue;
+    object_to_clip_[triangle.mesh] =
+        matrix_product<double>(work_->pose.eye_to_clip, work_->pose.object_to_eye[triangle.mesh]);
+    operations_ += paths_.matrix;
+    has_matrix[triangle.mesh] = 1;
+  }
+}
+
+// A unit's triangles lie apart in the mesh: what the next ones need is asked for while these are computed.
 void Computation::prefetch(const Triangle& triangle) const {
   const geometry::Mesh& mesh = *scene_.objects[triangle.mesh].mesh;
   for (const std::uint32_t corner : triangle.corner) {
@@ -104,25 +109,52 @@ void Computation::prefetch(const Triangle& triangle) const {
   }
 }
 
-// With plain numbers as long as no corner needs the guard band; otherwise from the start again, counting.
-void Computation::transform(Triangle& triangle) {
-  const geometry::Mesh& mesh = *scene_.objects[triangle.mesh].mesh;
-  const glm::dmat3& normal_to_eye = work_->pose.normal_to_eye[triangle.mesh];
-  const glm::dmat4& object_to_clip = object_to_clip_[triangle.mesh];
-  triangle.needs_guard = false;
-  for (std::size_t i = 0; i < 3 && !triangle.needs_guard; ++i) {
-    const std::uint32_t corner = triangle.corner[i];
-    geometry::ScreenVertex<double> screen;
-    triangle.needs_guard = !on_screen(
-        set_up::transform_vertex<double>(mesh.positions[corner], mesh.normals[corner], object_to_clip, normal_to_eye),
-        format_.grids.on_screen, format_.viewport, screen);
-    triangle.screen[i] = {screen.x, screen.y, screen.z, screen.normal};
+// The block's renewed triangles, object by object.
+void Computation::transform(const Block& block, set_up::ScreenCorners& screen) {
+  unsigned left = 0;
+  for (std::size_t i = block.begin; i < block.end; ++i) {
+    const Triangle& triangle = triangles_[i];
+    if (i + kAhead < triangles_.size()) prefetch(triangles_[i + kAhead]);
+    if (!triangle.renewed) continue;
+    const std::size_t lane = i - block.begin;
+    left |= 1U << lane;
+    const geometry::Mesh& mesh = *scene_.objects[triangle.mesh].mesh;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const glm::dvec3& position = mesh.positions[triangle.corner[c]];
+      const glm::dvec3& normal = mesh.normals[triangle.corner[c]];
+      for (int component = 0; component < 3; ++component) {
+        object_corners_.position[c][component][lane] = position[component];
+        object_corners_.normal[c][component][lane] = normal[component];
+      }
+    }
   }
-  if (!cut_.empty()) cut_.erase(static_cast<std::uint32_t>(&triangle - triangles_.data()));
-  if (triangle.needs_guard)
-    transform_counted(triangle);
-  else
-    operations_ += paths_.three_inside;
+  while (left != 0) {
+    const std::uint32_t mesh = triangles_[block.begin + static_cast<std::size_t>(std::countr_zero(left))].mesh;
+    unsigned lanes = 0;
+    for (std::size_t i = block.begin; i < block.end; ++i)
+      if (triangles_[i].mesh == mesh) lanes |= 1U << (i - block.begin);
+    transform_of_mesh(block, lanes & left, mesh, screen);
+    left &= ~lanes;
+  }
+}
+
+// Those that need the guard band once more from the start, counting.
+void Computation::transform_of_mesh(const Block& block, unsigned lanes, std::uint32_t mesh,
+                                    set_up::ScreenCorners& screen) {
+  set_up::TransformRequest request = set_up::transform_request(object_to_clip_[mesh], work_->pose.normal_to_eye[mesh],
+                                                               format_.grids.on_screen, format_.viewport);
+  request.lanes = lanes;
+  const unsigned inside = kernels_.transform(request, object_corners_, screen);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    Triangle& triangle = triangles_[block.begin + lane];
+    triangle.needs_guard = (inside >> lane & 1U) == 0;
+    if (!cut_.empty()) cut_.erase(static_cast<std::uint32_t>(block.begin + lane));
+    if (triangle.needs_guard)
+      transform_counted(triangle);
+    else
+      operations_ += paths_.three_inside;
+  }
 }
 
 void Computation::transform_counted(Triangle& triangle) {
@@ -175,13 +207,21 @@ void Computation::allocate(Survey& survey) {
   survey.free_slots = static_cast<std::uint32_t>(free_slots_.size() - next_free);
 }
 
-const std::vector<Load>& Computation::set_up(bool guarded, const std::vector<Piece>& adopted) {
+const std::vector<Load>& Computation::set_up(bool guarded, const std::vector<Piece>& adopted, bool timed) {
   step_start_ = operations_;
+  timed_ = timed;
   loads_.clear();
+  before_.clear();
   const bool grid_changed = first_ || guarded != last_guarded_;
-  const geometry::SnapGrid& grid = guarded ? format_.grids.guarded : format_.grids.on_screen;
-  for (Triangle& triangle : triangles_)
-    if (triangle.renewed || grid_changed) fit(triangle, grid);
+  grid_ = guarded ? format_.grids.guarded : format_.grids.on_screen;
+  request_ = set_up::fit_request(grid_, format_.words);
+  for (std::size_t number = 0; number < screen_.size(); ++number) {
+    const Block these = block(number);
+    unsigned lanes = 0;
+    for (std::size_t i = these.begin; i < these.end; ++i)
+      if (triangles_[i].renewed || grid_changed) lanes |= 1U << (i - these.begin);
+    if (lanes != 0) fit(these, screen_[number], lanes);
+  }
   std::size_t next_free = extra_.size();
   for (const Piece& piece : adopted) extra_.emplace(free_slots_.at(next_free++), piece);
   load_pieces();
@@ -190,50 +230,62 @@ const std::vector<Load>& Computation::set_up(bool guarded, const std::vector<Pie
   return loads_;
 }
 
-void Computation::fit(Triangle& triangle, const geometry::SnapGrid& grid) {
-  if (triangle.needs_guard) {
-    const auto& pieces = cut_.at(static_cast<std::uint32_t>(&triangle - triangles_.data()));
-    if (!pieces.empty()) {
-      put(triangle.slot, triangle.object, pieces.front());
-      triangle.loaded = true;
-      return;
-    }
-  } else {
-    const set_up::SetUpResult result = fit_words(triangle, grid);
-    triangle.fate = result.outcome == Outcome::drawn       ? Fate::drawn
-                    : result.outcome == Outcome::back_face ? Fate::back_face
-                                                           : Fate::degenerate;
-    if (result.outcome == Outcome::drawn) {
-      put(triangle.slot, triangle.object, result.words);
-      triangle.loaded = true;
-      return;
+void Computation::fit(const Block& block, const set_up::ScreenCorners& screen, unsigned lanes) {
+  fitted_.drawn = fitted_.turned_away = 0;
+  fitted_.left = set_up::kAllLanes;
+  if (request_) kernels_.fit(*request_, screen, fitted_);
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    Triangle& triangle = triangles_[block.begin + lane];
+    const auto in = [lane](unsigned some) { return (some >> lane & 1U) != 0; };
+    if (triangle.needs_guard) {
+      put_pieces(triangle);
+    } else if (in(fitted_.left) || (in(fitted_.turned_away) && triangle.two_sided)) {
+      fit_alone(triangle, screen, lane);
+    } else if (in(fitted_.drawn)) {
+      operations_ += paths_.drawn;
+      settle(triangle, Outcome::drawn);
+      put(triangle.slot, triangle.object, set_up::words_of_lane(fitted_, lane, triangle.material));
+    } else {
+      const Outcome outcome = in(fitted_.turned_away) ? Outcome::back_face : Outcome::degenerate;
+      operations_ += paths_.of(outcome);
+      settle(triangle, outcome);
     }
   }
-  if (triangle.loaded) park(triangle.slot);
-  triangle.loaded = false;
 }
 
-// 1 / w, which the words do not need, is not kept.
-template <class T>
-set_up::ScreenTriangle<T> Computation::on_screen_again(const std::array<Corner, 3>& corners) {
-  set_up::ScreenTriangle<T> screen;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Corner& c = corners[i];
-    screen[i] = {c.x, c.y, c.z, 1.0, {c.normal.x, c.normal.y, c.normal.z}};
-  }
-  return screen;
+// What became of a triangle. One that is no longer drawn is parked.
+void Computation::settle(Triangle& triangle, Outcome outcome) {
+  triangle.fate = outcome == Outcome::drawn       ? Fate::drawn
+                  : outcome == Outcome::back_face ? Fate::back_face
+                                                  : Fate::degenerate;
+  if (outcome != Outcome::drawn && triangle.loaded) park(triangle.slot);
+  triangle.loaded = outcome == Outcome::drawn;
 }
 
-set_up::SetUpResult Computation::fit_words(const Triangle& triangle, const geometry::SnapGrid& grid) {
+// Its fate has been known since it was cut.
+void Computation::put_pieces(Triangle& triangle) {
+  const auto& pieces = cut_.at(static_cast<std::uint32_t>(&triangle - triangles_.data()));
+  if (!pieces.empty())
+    put(triangle.slot, triangle.object, pieces.front());
+  else if (triangle.loaded)
+    park(triangle.slot);
+  triangle.loaded = !pieces.empty();
+}
+
+void Computation::fit_alone(Triangle& triangle, const set_up::ScreenCorners& screen, std::size_t lane) {
+  set_up::SetUpResult result;
   if (format_.words.edges == set_up::EdgeForm::snapped) {
-    const auto result = set_up::set_up_triangle<double>(on_screen_again<double>(triangle.screen), triangle.material,
-                                                        triangle.two_sided, grid, format_.words);
+    result = set_up::set_up_triangle<double>(set_up::triangle_of_lane<double>(screen, lane), triangle.material,
+                                             triangle.two_sided, grid_, format_.words);
     operations_ += paths_.of(result.outcome);
-    return result;
+  } else {
+    const CountedStep step(operations_);
+    result = set_up::set_up_triangle<Number>(set_up::triangle_of_lane<Number>(screen, lane), triangle.material,
+                                             triangle.two_sided, grid_, format_.words);
   }
-  const CountedStep step(operations_);
-  return set_up::set_up_triangle<Number>(on_screen_again<Number>(triangle.screen), triangle.material,
-                                         triangle.two_sided, grid, format_.words);
+  settle(triangle, result.outcome);
+  if (result.outcome == Outcome::drawn) put(triangle.slot, triangle.object, result.words);
 }
 
 void Computation::load_pieces() {
@@ -248,12 +300,14 @@ void Computation::load_pieces() {
 }
 
 void Computation::put(std::uint32_t slot, std::uint32_t object, const object_processor::TriangleWords& words) {
-  loads_.push_back({slot, object, false, operations_ - step_start_, words});
+  loads_.push_back({slot, object, false, words});
+  if (timed_) before_.push_back(operations_ - step_start_);
 }
 
 void Computation::park(std::uint32_t slot) {
-  loads_.push_back({slot, 0, true, operations_ - step_start_,
-                    object_processor::parked_triangle(static_cast<unsigned>(format_.words.word_bits))});
+  loads_.push_back(
+      {slot, 0, true, object_processor::parked_triangle(static_cast<unsigned>(format_.words.word_bits))});
+  if (timed_) before_.push_back(operations_ - step_start_);
 }
 
 TriangleCounts Computation::triangle_counts() const {

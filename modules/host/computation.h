@@ -3,9 +3,10 @@
 // grid; told the grid, it fits the coefficients. Operations are counted by the code that computes (path_counts.h).
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "modules/host/animation.h"
@@ -14,7 +15,10 @@
 #include "modules/host/path_counts.h"
 #include "modules/host/resident_scene.h"
 #include "modules/set_up/pieces.h"
+#include "modules/set_up/triangle_batch.h"
+#include "modules/set_up/triangle_kernels.h"
 #include "modules/set_up/triangle_set_up.h"
+#include "src/base/vector_variant.h"
 #include "src/geometry/counted.h"
 #include "src/geometry/frame_grid.h"
 
@@ -39,7 +43,6 @@ struct Load {
   std::uint32_t slot = 0;
   std::uint32_t object = 0;  // from 0
   bool park = false;
-  geometry::OperationCounts before;  // operations of the step up to here: it is written then
   object_processor::TriangleWords words;
 };
 inline constexpr std::uint64_t kParkWords = 3;  // the first edge alone: it is then -1 everywhere
@@ -62,14 +65,17 @@ struct TriangleCounts {
 
 class Computation {
  public:
-  Computation(const ResidentScene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners);
+  Computation(const ResidentScene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners,
+              VectorVariant variant = vector_variant());
 
   // The first step. The survey covers all triangles of the unit, also those that did not change.
   Survey survey(const FrameWork& work);
 
   // The second step: what to write, in slot order of need. `adopted`: pieces of other units that this board has slots
-  // for.
-  const std::vector<Load>& set_up(bool guarded, const std::vector<Piece>& adopted);
+  // for. `timed`: `before` is kept.
+  const std::vector<Load>& set_up(bool guarded, const std::vector<Piece>& adopted, bool timed = true);
+  // One a load: operations of the second step up to it. It is written then.
+  const std::vector<geometry::OperationCounts>& before() const { return before_; }
 
   // Operations since the start of the run.
   const geometry::OperationCounts& operations() const { return operations_; }
@@ -79,15 +85,6 @@ class Computation {
  private:
   using Number = geometry::Counted<double>;
   enum class Fate : std::uint8_t { unknown, drawn, back_face, degenerate, outside };
-
-  struct Corner {  // on the screen
-    double x = 0.0;
-    double y = 0.0;
-    double z = 0.0;
-    glm::dvec3 normal{};
-  };
-  template <class T>
-  static set_up::ScreenTriangle<T> on_screen_again(const std::array<Corner, 3>& corners);
 
   struct Triangle {
     std::uint32_t object;  // of the machine: the triangle's number in the scene, from 0
@@ -100,16 +97,28 @@ class Computation {
     bool renewed = false;  // in this frame
     bool loaded = false;   // its slot is not parked
     Fate fate = Fate::unknown;
-    std::array<Corner, 3> screen{};  // where it needs no guard band
   };
+  // Triangles are computed eight at a time, side by side.
+  static constexpr std::size_t kLanes = set_up::kLanes;
+  struct Block {
+    std::size_t begin = 0;  // indices of triangles_
+    std::size_t end = 0;
+  };
+  Block block(std::size_t number) const {
+    return {number * kLanes, std::min(triangles_.size(), (number + 1) * kLanes)};
+  }
 
   void prefetch(const Triangle& triangle) const;
-  void transform(Triangle& triangle);
+  void prepare_matrices();
+  void transform(const Block& block, set_up::ScreenCorners& screen);
+  void transform_of_mesh(const Block& block, unsigned lanes, std::uint32_t mesh, set_up::ScreenCorners& screen);
   void transform_counted(Triangle& triangle);
   void cut(Triangle& triangle, const geometry::ClipTriangle<Number>& corners);
   void allocate(Survey& survey);
-  void fit(Triangle& triangle, const geometry::SnapGrid& grid);
-  set_up::SetUpResult fit_words(const Triangle& triangle, const geometry::SnapGrid& grid);
+  void fit(const Block& block, const set_up::ScreenCorners& screen, unsigned lanes);
+  void fit_alone(Triangle& triangle, const set_up::ScreenCorners& screen, std::size_t lane);
+  void put_pieces(Triangle& triangle);
+  void settle(Triangle& triangle, set_up::Outcome outcome);
   void load_pieces();
   void put(std::uint32_t slot, std::uint32_t object, const object_processor::TriangleWords& words);
   void park(std::uint32_t slot);
@@ -124,13 +133,21 @@ class Computation {
       cut_;                                      // by index of triangles_: what is drawn of clipped ones
   std::map<std::uint32_t, Piece> extra_;         // by slot: pieces in free slots, this frame
   std::map<std::uint32_t, Piece> loaded_extra_;  // and as they were last written
-  std::vector<glm::dmat4> object_to_clip_;       // one an object of the scene
+  std::vector<set_up::ScreenCorners> screen_;    // a block: of triangles that need no guard band
+  const set_up::TriangleKernels& kernels_;
+  set_up::ObjectCorners object_corners_;    // of the block being transformed
+  set_up::FittedTriangles fitted_;          // of the block being fitted
+  std::optional<set_up::FitRequest> request_;  // of the frame's grid
+  geometry::SnapGrid grid_;
+  std::vector<glm::dmat4> object_to_clip_;  // one an object of the scene
   const FrameWork* work_ = nullptr;
   bool last_guarded_ = false;
   bool first_ = true;
   geometry::OperationCounts operations_;
   geometry::OperationCounts step_start_;  // of the step that makes loads_
   std::vector<Load> loads_;
+  bool timed_ = true;
+  std::vector<geometry::OperationCounts> before_;
 };
 
 // Gives homeless pieces to boards with free slots, board by board. Returns one list a unit; what fits nowhere is left

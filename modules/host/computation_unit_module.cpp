@@ -110,7 +110,11 @@ void ComputationUnitModule::spend_computing(const geometry::OperationCounts& bef
 // there before the next one are written at once, and their time passes afterwards.
 void ComputationUnitModule::fit_and_write(const Message& plan) {
   const geometry::OperationCounts before = computation_.operations();
-  const std::vector<Load>& loads = computation_.set_up(plan.guarded, (*plan.placed)[unit_]);
+  const BusSchedule schedule = first_ ? BusSchedule(cost_.clock()) : BusSchedule(cost_.clock(), copies_, swap_ps_);
+  const Cycles start = cycles_since_swap();
+  // Where no copy comes any more, the order of words and arithmetic moves nothing.
+  const bool may_be_copied = schedule.next(start).has_value();
+  const std::vector<Load>& loads = computation_.set_up(plan.guarded, (*plan.placed)[unit_], may_be_copied);
   const geometry::OperationCounts counts = computation_.operations() - before;
   update_.operations += counts;
   const Cycles computing = cost_.compute(counts);
@@ -118,10 +122,7 @@ void ComputationUnitModule::fit_and_write(const Message& plan) {
   for (const Load& load : loads) update_.words += words_of(load);
   update_.writing = cost_.bus(update_.words);
   load_ = word_ = 0;
-  const BusSchedule schedule = first_ ? BusSchedule(cost_.clock()) : BusSchedule(cost_.clock(), copies_, swap_ps_);
-  const Cycles start = cycles_since_swap();
-  // Where no copy comes any more, the order of words and arithmetic moves nothing.
-  if (schedule.next(start))
+  if (may_be_copied)
     cut_into_segments(loads, computing);
   else
     segments_.assign(1, {computing, update_.words});
@@ -139,9 +140,9 @@ void ComputationUnitModule::fit_and_write(const Message& plan) {
 void ComputationUnitModule::cut_into_segments(const std::vector<Load>& loads, Cycles computing) {
   segments_.clear();
   Cycles computed;
-  for (const Load& load : loads) {
-    const Cycles until = cost_.compute(load.before);
-    segments_.push_back({until - computed, words_of(load)});
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const Cycles until = cost_.compute(computation_.before()[i]);
+    segments_.push_back({until - computed, words_of(loads[i])});
     computed = until;
   }
   segments_.push_back({computing - computed, 0});

@@ -48,25 +48,27 @@ const frame::CoveredLine& ObjectBoard::cover_line(std::uint32_t line) {
 // A line on which an edge could wrap, or a depth reach the word of nothing: span by span, as evaluate_line draws it.
 void ObjectBoard::cover_carefully(std::uint32_t line, Ready& ready) {
   std::fill(seen_.begin(), seen_.end(), 0U);
-  careful_spans_.clear();
+  std::vector<frame::CoveredSpan>& spans = careful_spans_[line - ready_first_];
+  spans.clear();
   ready.fragments = 0;
   for (const std::uint32_t slot : active_) {
     if (!intervals_[slot].holds(static_cast<std::int32_t>(line))) continue;
     const LineEdges at = line_edges(slot, line);
     visit_spans(at, {0, static_cast<std::int32_t>(columns_)}, [&](const Interval& span) {
       ready.fragments += static_cast<std::uint64_t>(span.end - span.begin);
-      cover_span(slot, at, span);
+      cover_span(slot, at, span, spans);
     });
   }
   std::uint64_t seen = 0;
   for (const std::uint64_t word : seen_) seen += static_cast<std::uint64_t>(std::popcount(word));
-  ready.covered = {careful_spans_.data(), careful_spans_.size(), seen};
+  ready.covered = {spans.data(), spans.size(), seen};
 }
 
-void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span) {
+void ObjectBoard::cover_span(std::uint32_t slot, const LineEdges& at, Interval span,
+                             std::vector<frame::CoveredSpan>& spans) {
   const auto begin = static_cast<std::uint32_t>(span.begin);
   const auto end = static_cast<std::uint32_t>(span.end);
-  careful_spans_.push_back({begin, end, &sources_[slot]});
+  spans.push_back({begin, end, &sources_[slot]});
   for (std::uint32_t column = begin; column < end; ++column)
     if (((at.depth + at.depth_step * column) & format_.mask()) != format_.mask())
       seen_[column / 64] |= std::uint64_t{1} << (column % 64);

@@ -72,8 +72,9 @@ class ObjectBoard {
   void evaluate_line(std::uint32_t line, frame::FragmentLine& out);
 
   // The same as spans, for whoever compares them (LineComposer): everything that the board's processors cover on the
-  // line. Counts what evaluate_line into an empty line counts. What is returned stays until the next line. Not with
-  // late carries (covers_in_spans).
+  // line. Counts what evaluate_line into an empty line counts. What is returned stays until a line of another band is
+  // asked for, bands being kBandLines lines from a multiple of it on, or a copy. Not with late carries
+  // (covers_in_spans).
   const frame::CoveredLine& cover_line(std::uint32_t line);
   bool covers_in_spans() const { return !late_carry_; }
 
@@ -116,7 +117,7 @@ class ObjectBoard {
   template <class Draw>
   void visit_stepped(const LineEdges& at, std::uint32_t wrapping, Interval span, const Draw& draw);
   void cover_carefully(std::uint32_t line, Ready& ready);
-  void cover_span(std::uint32_t slot, const LineEdges& at, Interval span);
+  void cover_span(std::uint32_t slot, const LineEdges& at, Interval span, std::vector<frame::CoveredSpan>& spans);
   void draw_span(std::uint32_t slot, const LineEdges& at, Interval span, frame::FragmentLine& out);
   void resolve_winners(std::uint32_t line, frame::FragmentLine& out);
   void fill_run(std::uint32_t slot, std::uint32_t line, std::size_t begin, std::size_t end, frame::FragmentLine& out);
@@ -165,7 +166,7 @@ class ObjectBoard {
   std::vector<std::uint32_t> winner_;  // slot + 1 of this board's nearest so far, or 0; one column more than the screen
   std::array<std::vector<std::uint32_t>, 3> normal_;  // words of the winners before normalisation
   std::vector<std::uint64_t> seen_;                   // a bit a column, for each line of a band
-  std::vector<frame::CoveredSpan> careful_spans_;
+  std::array<std::vector<frame::CoveredSpan>, kBandLines> careful_spans_;  // of the band that is ready
 };
 
 }  // namespace rastertlm::object_processor

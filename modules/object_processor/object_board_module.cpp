@@ -9,6 +9,8 @@
 
 namespace rastertlm::object_processor {
 
+static_assert(kBandLines == stream::kBandLines, "spans that are found together stay until all their lines are sent");
+
 ObjectBoardModule::ObjectBoardModule(const sc_core::sc_module_name& name, std::uint32_t board_number,
                                      ObjectBoard& board, const Timing& timing, std::size_t columns, stream::Link& link)
     : sc_module(name),
@@ -49,25 +51,33 @@ void ObjectBoardModule::write(tlm::tlm_generic_payload& payload, sc_core::sc_tim
 void ObjectBoardModule::synchronise(stream::SyncPayload& payload, sc_core::sc_time& delay) {
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
   if (payload.kind == stream::SyncPayload::Kind::retrace) {
-    if (payload.copy) {
-      board_.copy();
-      ++copies_;
-      if (payload.whole) words_whole_ = words_loaded_;
-      words_ahead_ = words_loaded_ - words_whole_;
-    }
+    retrace(payload);
     return;
   }
   payload_.frame = payload.frame;
-  payload_.line = payload.line;
+  delay += first_pixel_;
+  for (std::size_t k = 0; k < payload.lines; ++k)
+    send_line(payload.line + k * payload.step, delay + stream::to_time(payload.later_ps[k]));
+}
+
+void ObjectBoardModule::retrace(const stream::SyncPayload& payload) {
+  if (!payload.copy) return;
+  board_.copy();
+  ++copies_;
+  if (payload.whole) words_whole_ = words_loaded_;
+  words_ahead_ = words_loaded_ - words_whole_;
+}
+
+void ObjectBoardModule::send_line(std::size_t line, sc_core::sc_time delay) {
+  payload_.line = line;
   if (board_.covers_in_spans()) {
-    payload_.covered = &board_.cover_line(static_cast<std::uint32_t>(payload.line));
+    payload_.covered = &board_.cover_line(static_cast<std::uint32_t>(line));
   } else {
     payload_.fragments = pool_.acquire();
-    board_.evaluate_line(static_cast<std::uint32_t>(payload.line), *payload_.fragments);
+    board_.evaluate_line(static_cast<std::uint32_t>(line), *payload_.fragments);
   }
   link_.record(board_.columns(), Cycles(board_.columns()));
   ++lines_sent_;
-  delay += first_pixel_;
   out->b_transport(payload_, delay);
 }
 

@@ -38,6 +38,8 @@ class ObjectBoardModule : public sc_core::sc_module {
  private:
   void write(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   void synchronise(stream::SyncPayload& payload, sc_core::sc_time& delay);
+  void retrace(const stream::SyncPayload& payload);
+  void send_line(std::size_t line, sc_core::sc_time delay);
 
   std::uint32_t board_number_;
   ObjectBoard& board_;

@@ -2,6 +2,7 @@
 // because the simple sockets ask for it; its command, address and data mean nothing here.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <tlm>
 
@@ -29,12 +30,19 @@ struct RgbPayload : tlm::tlm_generic_payload {
   const frame::FragmentLine* fragments = nullptr;
 };
 
-// The video timing's signals: vertical retrace begins (with or without a copy of the loading RAMs), or a line begins.
+// Lines whose numbers differ by less, from a multiple of it on, may be announced together.
+inline constexpr std::size_t kBandLines = 8;
+
+// The video timing's signals: vertical retrace begins (with or without a copy of the loading RAMs), or a line begins;
+// or, where nobody minds, the lines of a band begin, one after the other.
 struct SyncPayload : tlm::tlm_generic_payload {
   enum class Kind { retrace, line };
   Kind kind = Kind::line;
   std::uint64_t frame = 0;
   std::size_t line = 0;
+  std::size_t lines = 1;  // line: so many are announced together, `step` apart, 1 .. kBandLines
+  std::size_t step = 1;
+  std::array<std::uint64_t, kBandLines> later_ps{};  // line: by which each begins after the first
   bool copy = false;   // retrace: loading RAMs go to backup RAMs
   bool whole = false;  // retrace: they hold a whole frame, with which the computation units have finished
   bool swap = false;   // retrace: so do the tables, and the hosts go on to the next frame

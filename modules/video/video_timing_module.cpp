@@ -30,10 +30,9 @@ bool VideoTimingModule::units_ready() const {
   return std::all_of(ready.begin(), ready.end(), [](const auto& unit) { return unit.read(); });
 }
 
-void VideoTimingModule::announce(SyncPayload::Kind kind, std::size_t line, Cycles since_frame_start) {
+void VideoTimingModule::announce(SyncPayload::Kind kind, Cycles since_frame_start) {
   payload_.kind = kind;
   payload_.frame = shown_ / timing_.fields;
-  payload_.line = line;
   const sc_core::sc_time since = stream::to_time(timing_.clock, since_frame_start);
   for (std::size_t listener = 0; listener < sync.size(); ++listener) {
     if (kind == SyncPayload::Kind::line && hears_lines_[listener] == 0) continue;
@@ -56,15 +55,32 @@ void VideoTimingModule::begin_retrace(std::uint64_t video_frame) {
   // A whole frame of objects may be shown before its tables; the hosts wait for both.
   whole_shown_ = payload_.whole && !payload_.swap;
   payload_.switch_tables = false;
-  announce(SyncPayload::Kind::retrace, 0, Cycles(0));
+  payload_.line = 0;
+  payload_.lines = 1;
+  announce(SyncPayload::Kind::retrace, Cycles(0));
   if (payload_.swap) swapped.notify(sc_core::SC_ZERO_TIME);
   payload_.copy = payload_.whole = payload_.swap = payload_.switch_tables = false;
 }
 
+// `line` and those that are announced with it. Returns the first that are not.
+std::size_t VideoTimingModule::set_lines(std::size_t line) {
+  payload_.line = line;
+  payload_.lines = 0;
+  payload_.step = timing_.fields;
+  const std::size_t band_end = in_bands_ ? (line / stream::kBandLines + 1) * stream::kBandLines : line + 1;
+  const std::uint64_t first_ps = timing_.clock.picoseconds(timing_.line_start(line));
+  for (; line < std::min(lines_, band_end); line += timing_.fields)
+    payload_.later_ps[payload_.lines++] = timing_.clock.picoseconds(timing_.line_start(line)) - first_ps;
+  return line;
+}
+
 // Lines of the picture that are in the field being shown: all, or those of its parity.
 void VideoTimingModule::announce_lines() {
-  for (std::size_t line = shown_ % timing_.fields; line < lines_; line += timing_.fields)
-    announce(SyncPayload::Kind::line, line, timing_.line_start(line));
+  for (std::size_t line = shown_ % timing_.fields; line < lines_;) {
+    const Cycles begins = timing_.line_start(line);
+    line = set_lines(line);
+    announce(SyncPayload::Kind::line, begins);
+  }
 }
 
 void VideoTimingModule::run_guarded() {

@@ -37,6 +37,10 @@ class VideoTimingModule : public sc_core::sc_module {
   // Before the simulation: what this listener does depends on no line.
   void announce_retraces_alone(std::size_t listener) { hears_lines_.at(listener) = 0; }
 
+  // Before the simulation: no listener minds whether another has heard of the next lines. Those of a band are then told
+  // a listener in one go.
+  void announce_lines_in_bands() { in_bands_ = true; }
+
   // Picoseconds at which the first displayed frame's retrace began, and the number of video frames that began with a
   // new frame of objects, wholly written.
   std::uint64_t first_frame_ps() const { return first_frame_ps_; }
@@ -57,10 +61,12 @@ class VideoTimingModule : public sc_core::sc_module {
   void begin_retrace(std::uint64_t video_frame);
   bool begins_frame(std::uint64_t video_frame) const { return video_frame % timing_.fields == 0; }
   void announce_lines();
-  void announce(stream::SyncPayload::Kind kind, std::size_t line, Cycles since_frame_start);
+  std::size_t set_lines(std::size_t line);
+  void announce(stream::SyncPayload::Kind kind, Cycles since_frame_start);
 
   Timing timing_;
   std::vector<std::uint8_t> hears_lines_;  // one a listener
+  bool in_bands_ = false;
   std::size_t lines_;
   std::uint64_t frames_;
   std::uint64_t patience_;

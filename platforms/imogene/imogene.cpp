@@ -318,7 +318,10 @@ void Imogene::bind_display() {
   video_timing_->sync[0].bind(table_loader_->sync);
   video_timing_->sync[1].bind(shading_module_->sync);
   // A line concerns tables only where they are written while it is announced.
-  if (machine_.loader.when == shading::LoadTime::frame) video_timing_->announce_retraces_alone(0);
+  if (machine_.loader.when == shading::LoadTime::frame) {
+    video_timing_->announce_retraces_alone(0);
+    video_timing_->announce_lines_in_bands();
+  }
   video_timing_->announce_retraces_alone(1);
   for (std::size_t k = 0; k < boards; ++k) {
     video_timing_->sync[k + 2].bind(board_modules_[k]->sync);

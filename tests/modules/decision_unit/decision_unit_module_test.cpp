@@ -123,14 +123,29 @@ TEST(DecisionUnitModule, SendsALineWhenItsLastBoardHasSentIt) {
   EXPECT_EQ(machine.link.active(), Cycles(2 * kColumns));
 }
 
-TEST(DecisionUnitModule, ABoardThatRunsAheadIsCaught) {
+// Boards are told of the lines of a band in one go, so that the first has sent them all before the second sends any.
+TEST(DecisionUnitModule, ABoardMayBeAheadByABand) {
+  Machine machine;
+  EXPECT_EQ(machine.failure([&] {
+    for (const std::size_t board : {1U, 0U, 2U})
+      for (std::size_t line = 8; line < 16; ++line) machine.boards[board].send(line, 5, 9, 1, 1'000 * line);
+  }),
+            "no failure");
+  ASSERT_EQ(machine.shading.lines.size(), 8U);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_EQ(machine.shading.lines[k].line, 8 + k);
+    EXPECT_EQ(machine.shading.lines[k].coverage_5, 3);
+    EXPECT_EQ(machine.shading.lines[k].picoseconds, 1'000 * (8 + k) + 7 * 60'000);
+  }
+}
+
+TEST(DecisionUnitModule, ABoardThatRunsFurtherAheadIsCaught) {
   Machine machine;
   EXPECT_THAT(machine.failure([&] {
-    machine.boards[1].send(8, 5, 1, 1, 0);
-    machine.boards[1].send(9, 5, 1, 1, 0);
+    for (std::size_t line = 8; line < 17; ++line) machine.boards[1].send(line, 5, 1, 1, 0);
   }),
               testing::AllOf(testing::HasSubstr("decision_unit"),
-                             testing::HasSubstr("board 1 sent line 9 while line 8 was being gathered")));
+                             testing::HasSubstr("board 1 sent line 16 while lines from 8 on were being gathered")));
 }
 
 TEST(DecisionUnitModule, ABoardThatSendsTwiceIsCaught) {
@@ -139,16 +154,16 @@ TEST(DecisionUnitModule, ABoardThatSendsTwiceIsCaught) {
     machine.boards[0].send(8, 5, 1, 1, 0);
     machine.boards[0].send(8, 5, 1, 1, 0);
   }),
-              testing::HasSubstr("board 0 sent line 8 while line 8"));
+              testing::HasSubstr("board 0 sent line 8 twice"));
 }
 
-TEST(DecisionUnitModule, AnotherLineIsCaught) {
+TEST(DecisionUnitModule, ALineOfAnotherBandIsCaught) {
   Machine machine;
   EXPECT_THAT(machine.failure([&] {
     machine.boards[0].send(8, 5, 1, 1, 0);
     machine.boards[2].send(7, 5, 1, 1, 0);
   }),
-              testing::HasSubstr("board 2 sent line 7 while line 8"));
+              testing::HasSubstr("board 2 sent line 7 while lines from 8 on"));
 }
 
 // However many lines pass, three are in use at a time.

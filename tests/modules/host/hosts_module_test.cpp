@@ -63,7 +63,7 @@ std::vector<std::vector<Work>> work_of(const Hosts& hosts, std::int64_t frames) 
       const std::vector<Load>& loads = computation.set_up(false, {});
       std::vector<std::uint64_t> known;
       known.reserve(loads.size());
-      for (const Load& load : loads) known.push_back(load.before.flops());
+      for (const geometry::OperationCounts& before : computation.before()) known.push_back(before.flops());
       result.back().push_back(
           {surveyed - start, computation.operations().flops() - surveyed, 22 * loads.size(), known});
     }

@@ -196,5 +196,30 @@ TEST(ObjectBoardModule, ALineLeavesAtItsTime) {
   EXPECT_EQ(m.link.bytes(), 8U * kColumns);
 }
 
+// Lines that are announced together leave one by one, each as if it had been announced alone; the spans of all are
+// there until those of another band are asked for.
+TEST(ObjectBoardModule, LinesOfABandLeaveOneByOne) {
+  Machine m;
+  m.around.write(bus_address(kBoard, 3, 0), everywhere(1000), 77);
+  m.around.retrace(true);
+  stream::SyncPayload payload;
+  payload.frame = 4;
+  payload.line = 1;
+  payload.lines = 2;
+  payload.step = 2;
+  payload.later_ps = {0, 500'000};
+  sc_core::sc_time delay = stream::to_time(1'000'000);
+  m.around.sync->b_transport(payload, delay);
+  ASSERT_EQ(m.around.lines.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(m.around.lines[k].frame, 4U);
+    EXPECT_EQ(m.around.lines[k].line, 1 + 2 * k);
+    EXPECT_EQ(m.around.lines[k].picoseconds, 1'000'000U + 500'000 * k + 120 * 60'000);
+    EXPECT_EQ(m.around.lines[k].fragments.object[4], 77U);
+  }
+  EXPECT_EQ(m.board.lines_sent(), 2U);
+  EXPECT_EQ(m.link.words(), 2 * kColumns);
+}
+
 }  // namespace
 }  // namespace rastertlm::object_processor

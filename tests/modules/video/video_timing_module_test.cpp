@@ -45,6 +45,7 @@ class Listeners : public sc_core::sc_module {
  public:
   sc_core::sc_vector<tlm_utils::simple_target_socket_tagged<Listeners, stream::kNoBusWidth, stream::SyncProtocol>> sync;
   std::vector<Heard> heard;
+  std::size_t calls = 0;
 
   Listeners(const sc_core::sc_module_name& name, std::size_t count) : sc_module(name), sync("sync", count) {
     for (std::size_t i = 0; i < count; ++i) sync[i].register_b_transport(this, &Listeners::hear, static_cast<int>(i));
@@ -53,8 +54,11 @@ class Listeners : public sc_core::sc_module {
  private:
   void hear(int listener, SyncPayload& payload, sc_core::sc_time& delay) {
     EXPECT_FALSE(payload.switch_tables);  // that is the loader's to say
-    heard.push_back({listener, payload.kind == SyncPayload::Kind::retrace, payload.copy, payload.swap, payload.frame,
-                     payload.line, stream::picoseconds_now() + delay.value()});
+    ++calls;
+    for (std::size_t k = 0; k < payload.lines; ++k)
+      heard.push_back({listener, payload.kind == SyncPayload::Kind::retrace, payload.copy, payload.swap, payload.frame,
+                       payload.line + k * payload.step,
+                       stream::picoseconds_now() + delay.value() + payload.later_ps[k]});
     delay += sc_core::sc_time(7, sc_core::SC_MS);  // is nobody else's delay
   }
 };
@@ -178,6 +182,44 @@ TEST(VideoTimingModule, LinesMayBeKeptFromAListener) {
   EXPECT_EQ(retraces, 2U);
   EXPECT_EQ(screen.listeners.heard.size(), 2U * (1 + kLines) + 2);
 }
+
+// What a listener hears of lines that are announced in bands is what it hears of lines announced one by one.
+std::vector<std::tuple<std::uint64_t, std::size_t, std::uint64_t>> heard_by_first(const Screen& screen) {
+  std::vector<std::tuple<std::uint64_t, std::size_t, std::uint64_t>> result;
+  for (const Heard& one : screen.listeners.heard)
+    if (one.listener == 0 && !one.retrace) result.emplace_back(one.frame, one.line, one.picoseconds);
+  return result;
+}
+
+// `lines` at 50 clocks each.
+void announces_in_bands(bool interlaced, std::size_t calls_a_frame) {
+  constexpr std::size_t kManyLines = 100;
+  VideoParameters parameters;
+  parameters.columns = 20;
+  parameters.lines = kManyLines;
+  parameters.refresh_hz = 1000;
+  parameters.pixel_clock_ns = 99.7;  // no whole number of picoseconds a line
+  parameters.vertical_retrace_us = 100;
+  parameters.interlaced = interlaced;
+  const Timing timing_of_lines = timing(parameters);
+  Screen screen(2, 10, VideoTimingModule::Copy::when_ready, timing_of_lines, kManyLines);
+  screen.video.announce_lines_in_bands();
+  screen.set_all(true);
+  stream::simulate();
+  std::vector<std::tuple<std::uint64_t, std::size_t, std::uint64_t>> expected;
+  for (std::uint64_t field = 0; field < 2 * timing_of_lines.fields; ++field)
+    for (std::size_t line = field % timing_of_lines.fields; line < kManyLines; line += timing_of_lines.fields)
+      expected.emplace_back(field / timing_of_lines.fields, line,
+                            timing_of_lines.clock.picoseconds(timing_of_lines.frame * field) +
+                                timing_of_lines.clock.picoseconds(timing_of_lines.line_start(line)));
+  EXPECT_EQ(heard_by_first(screen), expected);
+  EXPECT_EQ(screen.listeners.calls, 2 * 2 * calls_a_frame);
+}
+
+// 13 bands, the last of four lines, and a retrace.
+TEST(VideoTimingModule, AnnouncesLinesInBands) { announces_in_bands(false, 14); }
+
+TEST(VideoTimingModule, AnnouncesLinesOfAFieldInBands) { announces_in_bands(true, 2 * 14); }
 
 // Copied at every retrace: once there is a picture, whatever stands in the loading RAMs is shown; the hosts go on, and
 // an update is counted, where everything was ready.

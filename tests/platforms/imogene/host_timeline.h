@@ -36,6 +36,7 @@ inline const Parents kChainOfFour{-1, 0, 1, 2};
 
 struct Write {
   host::Load load;
+  std::uint64_t before = 0;  // flops of the second step up to it
   std::uint64_t words = 0;
 };
 
@@ -146,7 +147,9 @@ class Units {
     for (std::size_t k = 0; k < units_.size(); ++k) {
       const std::uint64_t before = units_[k].operations().flops();
       for (const host::Load& load : units_[k].set_up(guarded, placed[k])) {
-        result.units[k].writes.push_back({load, load.park ? kParkWords : kWords});
+        const std::size_t number = result.units[k].writes.size();
+        result.units[k].writes.push_back(
+            {load, units_[k].before()[number].flops(), load.park ? kParkWords : kWords});
         result.units[k].words += result.units[k].writes.back().words;
       }
       result.units[k].second_flops = units_[k].operations().flops() - before;

@@ -43,7 +43,7 @@ std::uint64_t words_by(const UnitWork& work, std::uint64_t fits, std::uint64_t c
   std::uint64_t written = 0;
   for (const Write& one : work.writes)
     for (std::uint64_t i = 0; i < one.words; ++i) {
-      if (fits + arithmetic(one.load.before.flops()) + 3 * (written + 1) > cycles) return written;
+      if (fits + arithmetic(one.before) + 3 * (written + 1) > cycles) return written;
       ++written;
     }
   return written;
