@@ -5,7 +5,6 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
-#include <array>
 #include <systemc>
 #include <vector>
 
@@ -23,8 +22,8 @@ class DecisionUnitModule : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<DecisionUnitModule, stream::kNoBusWidth, stream::FragmentProtocol> out;
 
   // `latency`: from the word of a pixel leaving the boards to its decision, in cycles of `clock`.
-  // `composer` makes pixels of lines that come as spans; boards send either all spans or all pixels. A board may be
-  // ahead of others by the lines of a band.
+  // `composer` makes pixels of lines that come as spans; boards send either all spans, of the same lines, or all
+  // pixels.
   DecisionUnitModule(const sc_core::sc_module_name& name, DecisionUnit& unit, object_processor::LineComposer& composer,
                      std::size_t columns, std::size_t boards, const Clock& clock, Cycles latency, stream::Link& link);
 
@@ -32,27 +31,25 @@ class DecisionUnitModule : public sc_core::sc_module {
 
  private:
   void receive(int board, stream::FragmentPayload& payload, sc_core::sc_time& delay);
-  // A line that some boards have sent: pixels or spans, by board.
-  struct Gathered {
-    std::size_t boards = 0;
-    std::size_t line = 0;
-    bool in_pixels = true;
-    std::vector<stream::LinePool::Handle> lines;
-    std::vector<const frame::CoveredLine*> covered;
-  };
-  Gathered& gather(std::size_t board, stream::FragmentPayload& payload);
-  void check_turn(std::size_t board, const stream::FragmentPayload& payload, const Gathered& gathered) const;
-  stream::LinePool::Handle merged(Gathered& gathered);
+  void gather(std::size_t board, stream::FragmentPayload& payload);
+  void check_turn(std::size_t board, const stream::FragmentPayload& payload) const;
+  void merge_pixels();
+  void merge_spans(std::size_t k);
+  void send(std::size_t line, sc_core::sc_time& delay);
 
   DecisionUnit& unit_;
   object_processor::LineComposer& composer_;
   sc_core::sc_time latency_;
   stream::Link& link_;
   stream::LinePool pool_;
-  std::array<Gathered, stream::kBandLines> gathered_;  // by the line's place in its band
-  std::size_t open_ = 0;   // of them, those that some boards have sent
-  std::size_t band_ = 0;   // to which they belong
+  // What is being gathered, by board: pixels of a line, or spans of some.
+  std::vector<stream::LinePool::Handle> pixels_;
   std::vector<frame::FragmentLine*> pointers_;
+  std::vector<const stream::SpanLines*> spans_;
+  std::vector<const frame::CoveredLine*> covered_;  // of one of the lines
+  std::size_t gathered_ = 0;                        // boards
+  stream::Lines lines_;
+  bool in_spans_ = false;
   stream::FragmentPayload payload_;
   std::uint64_t lines_sent_ = 0;
 };

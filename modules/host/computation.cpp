@@ -245,7 +245,9 @@ void Computation::fit(const Block& block, const set_up::ScreenCorners& screen, u
     } else if (in(fitted_.drawn)) {
       operations_ += paths_.drawn;
       settle(triangle, Outcome::drawn);
-      put(triangle.slot, triangle.object, set_up::words_of_lane(fitted_, lane, triangle.material));
+      object_processor::TriangleWords& words = put(triangle.slot, triangle.object);
+      set_up::take_words(fitted_, lane, words);
+      words.material = triangle.material;
     } else {
       const Outcome outcome = in(fitted_.turned_away) ? Outcome::back_face : Outcome::degenerate;
       operations_ += paths_.of(outcome);
@@ -267,7 +269,7 @@ void Computation::settle(Triangle& triangle, Outcome outcome) {
 void Computation::put_pieces(Triangle& triangle) {
   const auto& pieces = cut_.at(static_cast<std::uint32_t>(&triangle - triangles_.data()));
   if (!pieces.empty())
-    put(triangle.slot, triangle.object, pieces.front());
+    put(triangle.slot, triangle.object) = pieces.front();
   else if (triangle.loaded)
     park(triangle.slot);
   triangle.loaded = !pieces.empty();
@@ -285,29 +287,28 @@ void Computation::fit_alone(Triangle& triangle, const set_up::ScreenCorners& scr
                                              triangle.two_sided, grid_, format_.words);
   }
   settle(triangle, result.outcome);
-  if (result.outcome == Outcome::drawn) put(triangle.slot, triangle.object, result.words);
+  if (result.outcome == Outcome::drawn) put(triangle.slot, triangle.object) = result.words;
 }
 
 void Computation::load_pieces() {
   for (const auto& [slot, piece] : extra_) {
     const auto last = loaded_extra_.find(slot);
     if (last == loaded_extra_.end() || last->second.object != piece.object || !(last->second.words == piece.words))
-      put(slot, piece.object, piece.words);
+      put(slot, piece.object) = piece.words;
   }
   for (const auto& [slot, piece] : loaded_extra_)
     if (!extra_.contains(slot)) park(slot);
   loaded_extra_ = extra_;
 }
 
-void Computation::put(std::uint32_t slot, std::uint32_t object, const object_processor::TriangleWords& words) {
-  loads_.push_back({slot, object, false, words});
+object_processor::TriangleWords& Computation::put(std::uint32_t slot, std::uint32_t object) {
   if (timed_) before_.push_back(operations_ - step_start_);
+  return loads_.emplace_back(Load{slot, object, false, {}}).words;
 }
 
 void Computation::park(std::uint32_t slot) {
-  loads_.push_back(
-      {slot, 0, true, object_processor::parked_triangle(static_cast<unsigned>(format_.words.word_bits))});
-  if (timed_) before_.push_back(operations_ - step_start_);
+  put(slot, 0) = object_processor::parked_triangle(static_cast<unsigned>(format_.words.word_bits));
+  loads_.back().park = true;
 }
 
 TriangleCounts Computation::triangle_counts() const {

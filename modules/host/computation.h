@@ -120,7 +120,8 @@ class Computation {
   void put_pieces(Triangle& triangle);
   void settle(Triangle& triangle, set_up::Outcome outcome);
   void load_pieces();
-  void put(std::uint32_t slot, std::uint32_t object, const object_processor::TriangleWords& words);
+  // Of a load that is added; its words are to be filled in.
+  object_processor::TriangleWords& put(std::uint32_t slot, std::uint32_t object);
   void park(std::uint32_t slot);
 
   const ResidentScene& scene_;
@@ -135,8 +136,8 @@ class Computation {
   std::map<std::uint32_t, Piece> loaded_extra_;  // and as they were last written
   std::vector<set_up::ScreenCorners> screen_;    // a block: of triangles that need no guard band
   const set_up::TriangleKernels& kernels_;
-  set_up::ObjectCorners object_corners_;    // of the block being transformed
-  set_up::FittedTriangles fitted_;          // of the block being fitted
+  set_up::ObjectCorners object_corners_;       // of the block being transformed
+  set_up::FittedTriangles fitted_;             // of the block being fitted
   std::optional<set_up::FitRequest> request_;  // of the frame's grid
   geometry::SnapGrid grid_;
   std::vector<glm::dmat4> object_to_clip_;  // one an object of the scene

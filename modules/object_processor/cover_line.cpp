@@ -9,15 +9,16 @@ namespace rastertlm::object_processor {
 
 // Finds the spans of the line's band.
 void ObjectBoard::make_ready(std::uint32_t line) {
-  select_band(line);
-  ready_first_ = current_band_ * kBandLines;
-  const std::size_t room = active_.size() + 1;
+  const std::span<const std::uint32_t> slots = active(line);
+  ready_first_ = line / kBandLines * kBandLines;
+  const std::size_t room = slots.size() + 1;
   if (spans_.size() < kBandLines * room) spans_.resize(kBandLines * room);
   BandLines found;
   for (std::size_t k = 0; k < kBandLines; ++k) found.line[k].spans = &spans_[k * room];
-  const bool careful = std::any_of(active_.begin(), active_.end(), [this](auto slot) { return careful_[slot] != 0; });
+  const bool careful =
+      careful_count_ > 0 && std::any_of(slots.begin(), slots.end(), [this](auto slot) { return careful_[slot] != 0; });
   if (!careful)
-    kernels_.band({active_.data(), active_.size(), borders_.data(), intervals_.data(), sources_.data(), ready_first_,
+    kernels_.band({slots.data(), slots.size(), borders_.data(), intervals_.data(), sources_.data(), ready_first_,
                    columns_, format_.mask(), seen_.data(), seen_.size() / kBandLines},
                   found);
   for (std::uint32_t k = 0; k < kBandLines; ++k) {
@@ -30,19 +31,25 @@ void ObjectBoard::make_ready(std::uint32_t line) {
   }
 }
 
-const frame::CoveredLine& ObjectBoard::cover_line(std::uint32_t line) {
-  if (line - ready_first_ >= kBandLines || line >= lines_) {
-    check_line(line, columns_);
-    make_ready(line);
+void ObjectBoard::cover_lines(std::uint32_t line, std::size_t count, std::uint32_t step,
+                              const frame::CoveredLine** covered) {
+  check_line(line, columns_);
+  if (line - ready_first_ >= kBandLines) make_ready(line);
+  BoardCounters more;
+  for (std::size_t k = 0; k < count; ++k, line += step) {
+    Ready& ready = ready_[line - ready_first_];
+    if (ready.careful) cover_carefully(line, ready);
+    more.lines_evaluated += ready.touched > 0 ? 1 : 0;
+    more.processors_visited += ready.touched;
+    more.fragments_in += ready.fragments;
+    more.fragments_kept += ready.covered.seen_pixels;
+    covered[k] = &ready.covered;
   }
-  Ready& ready = ready_[line - ready_first_];
-  if (ready.careful) cover_carefully(line, ready);
-  counters_.lines_evaluated += ready.touched > 0 ? 1 : 0;
-  counters_.processors_visited += ready.touched;
-  counters_.fragments_in += ready.fragments;
-  counters_.fragments_kept += ready.covered.seen_pixels;
-  counters_.fragments_hidden += ready.fragments - ready.covered.seen_pixels;
-  return ready.covered;
+  counters_.lines_evaluated += more.lines_evaluated;
+  counters_.processors_visited += more.processors_visited;
+  counters_.fragments_in += more.fragments_in;
+  counters_.fragments_kept += more.fragments_kept;
+  counters_.fragments_hidden += more.fragments_in - more.fragments_kept;
 }
 
 // A line on which an edge could wrap, or a depth reach the word of nothing: span by span, as evaluate_line draws it.
@@ -51,7 +58,7 @@ void ObjectBoard::cover_carefully(std::uint32_t line, Ready& ready) {
   std::vector<frame::CoveredSpan>& spans = careful_spans_[line - ready_first_];
   spans.clear();
   ready.fragments = 0;
-  for (const std::uint32_t slot : active_) {
+  for (const std::uint32_t slot : active(line)) {
     if (!intervals_[slot].holds(static_cast<std::int32_t>(line))) continue;
     const LineEdges at = line_edges(slot, line);
     visit_spans(at, {0, static_cast<std::int32_t>(columns_)}, [&](const Interval& span) {

@@ -26,6 +26,8 @@ std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> b
   for (const frame::CoveredLine* board : boards) spans += board->count;
   if (spans == 0) return 0;
   if (sources_.size() <= spans) sources_.resize(spans + 1);
+  static constexpr frame::FragmentSource kNobody{};
+  sources_.front() = &kNobody;
   const bool in_keys = word_bits_ + kMarkBits <= 32 && spans <= kMarkMask;
   const std::size_t columns = out.columns();
   out.begin = 0;
@@ -58,12 +60,8 @@ void LineComposer::compare(std::span<const frame::CoveredLine* const> boards, st
   // Strictly nearer than nothing wins: the key of nothing has the lowest mark, which is nobody's.
   kernels_->fill(depth_.front().words, columns + 1, in_keys ? word_mask_ << (32 - word_bits_) : word_mask_);
   if (!in_keys) kernels_->fill(winner_.front().words, columns + 1, 0);
-  std::uint32_t mark = 1;
-  for (const frame::CoveredLine* board : boards) {
-    kernels_->draw({board->spans, board->count, line, word_bits_, mark, sources_.data(), depth_.front().words,
-                    in_keys ? nullptr : winner_.front().words});
-    mark += static_cast<std::uint32_t>(board->count);
-  }
+  kernels_->draw({boards.data(), boards.size(), line, word_bits_, sources_.data(), depth_.front().words,
+                  in_keys ? nullptr : winner_.front().words});
 }
 
 void LineComposer::observe(std::span<const frame::CoveredLine* const> boards, bool in_keys,

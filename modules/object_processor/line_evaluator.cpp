@@ -28,6 +28,11 @@ void narrow_lines(Integer p, Integer q, Interval& lines) {
   }
 }
 
+// p y + q >= 0 on all of them: what most triangles' single edges say of the screen. |p| < 2^31, |q| < 2^46.
+bool holds_on_all(std::int64_t p, std::int64_t q, const Interval& lines) {
+  return p * lines.begin + q >= 0 && p * (lines.end - 1) + q >= 0;
+}
+
 // Eliminates x (Fourier and Motzkin) from a x + b y + c >= 0 of every half plane and 0 <= x <= last_column: what
 // remains is the shadow on the axis of lines, exact over the reals.
 template <class Integer>
@@ -36,7 +41,8 @@ void eliminate_columns(const std::array<HalfPlane, 3>& planes, std::size_t count
   for (std::size_t i = 0; i < count; ++i) {
     const HalfPlane& plane = planes[i];
     const std::int64_t best_column = plane.a > 0 ? last_column : 0;
-    narrow_lines<Integer>(plane.b, Integer{plane.a} * best_column + plane.c, lines);
+    const std::int64_t constant = plane.a * best_column + plane.c;
+    if (!holds_on_all(plane.b, constant, lines)) narrow_lines<Integer>(plane.b, constant, lines);
     for (std::size_t j = 0; j < count; ++j) {
       const HalfPlane& other = planes[j];
       if (plane.a > 0 && other.a < 0)

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 #include "src/base/errors.h"
 
@@ -54,7 +53,7 @@ ObjectBoard::ObjectBoard(const ObjectProcessorParameters& parameters, std::uint3
       everything_(visit == Visit::everything),
       late_carry_(parameters.carry_clock == CarryClock::clock2 && parameters.slices() > 1),
       kernels_(span_kernels(variant)),
-      bucket_begin_(std::size_t{(lines + kBandLines - 1) / kBandLines} + 1, 0),
+      band_begin_(std::size_t{(lines + kBandLines - 1) / kBandLines} + 1, 0),
       touched_by_(std::size_t{lines} + 1, 0),
       winner_(std::size_t{columns} + 1, 0),
       seen_(std::size_t{kBandLines} * ((columns + 63) / 64), 0) {
@@ -162,9 +161,8 @@ std::uint32_t ObjectBoard::slots_in_use() const {
 std::uint64_t ObjectBoard::memory_bytes() const {
   const std::uint64_t a_slot = sizeof(Loading) + sizeof(Edges) + sizeof(frame::FragmentSource) + sizeof(Borders) +
                                sizeof(Interval) + 2 * sizeof(std::uint8_t);
-  const std::uint64_t indices = changes_.capacity() + bucket_begin_.capacity() + bucket_slots_.capacity() +
-                                touched_by_.capacity() + active_.capacity() + merged_.capacity() +
-                                newcomers_.capacity();
+  const std::uint64_t indices =
+      changes_.capacity() + band_begin_.capacity() + band_slots_.capacity() + touched_by_.capacity();
   return loading_.capacity() * a_slot + indices * sizeof(std::uint32_t) +
          spans_.capacity() * sizeof(frame::CoveredSpan) + std::uint64_t{columns_} * 4 * sizeof(std::uint32_t);
 }
@@ -185,36 +183,49 @@ std::uint32_t ObjectBoard::copy() {
         half_planes(edges_[slot], format_, static_cast<std::int32_t>(columns_), static_cast<std::int32_t>(lines_));
     intervals_[slot] = interval_of(edges_[slot], planes);
     // Edges along lines are in the interval alone.
+    careful_count_ -= careful_[slot];
     careful_[slot] = everything_ || planes.count < 3 || !find_borders(planes, borders_[slot]) ? 1 : 0;
+    careful_count_ += careful_[slot];
     changed_[slot] = 0;
   }
   const auto copied = static_cast<std::uint32_t>(changes_.size());
-  if (copied > 0) rebuild_buckets();
+  if (copied > 0) sort_into_bands();
   changes_.clear();
-  current_band_ = kNone;
   ready_first_ = kNone;
   return copied;
 }
 
-void ObjectBoard::rebuild_buckets() {
-  // A counting sort by the band of the first line, which keeps the order of numbers.
-  std::fill(bucket_begin_.begin(), bucket_begin_.end(), 0U);
+// A counting sort: by band, and in the order of numbers within one.
+void ObjectBoard::sort_into_bands() {
   std::fill(touched_by_.begin(), touched_by_.end(), 0U);
-  std::uint32_t in_use = 0;
+  std::fill(band_begin_.begin(), band_begin_.end(), 0U);
+  const auto first_band = [](const Interval& lines) { return static_cast<std::size_t>(lines.begin) / kBandLines; };
+  const auto end_band = [](const Interval& lines) {
+    return (static_cast<std::size_t>(lines.end) - 1) / kBandLines + 1;
+  };
   for (const Interval& lines : intervals_) {
     if (lines.empty()) continue;
-    ++bucket_begin_[static_cast<std::size_t>(lines.begin) / kBandLines + 1];
+    // Modulo 2^32: sums from the first line on are right.
     ++touched_by_[static_cast<std::size_t>(lines.begin)];
-    --touched_by_[static_cast<std::size_t>(lines.end)];  // modulo 2^32: sums from the first line on are right
-    ++in_use;
+    --touched_by_[static_cast<std::size_t>(lines.end)];
+    ++band_begin_[first_band(lines)];
+    --band_begin_[end_band(lines)];
   }
   for (std::size_t line = 0; line < lines_; ++line) touched_by_[line + 1] += touched_by_[line];
-  for (std::size_t band = 0; band + 1 < bucket_begin_.size(); ++band) bucket_begin_[band + 1] += bucket_begin_[band];
-  bucket_slots_.resize(in_use);
-  std::vector<std::uint32_t> next(bucket_begin_.begin(), bucket_begin_.end() - 1);
-  for (std::uint32_t slot = 0; slot < intervals_.size(); ++slot)
-    if (!intervals_[slot].empty())
-      bucket_slots_[next[static_cast<std::size_t>(intervals_[slot].begin) / kBandLines]++] = slot;
+  std::uint32_t in_band = 0;
+  std::uint32_t before = 0;
+  for (std::uint32_t& begin : band_begin_) {
+    in_band += begin;
+    begin = before;
+    before += in_band;
+  }
+  band_slots_.resize(before);
+  std::vector<std::uint32_t> next(band_begin_.begin(), band_begin_.end() - 1);
+  for (std::uint32_t slot = 0; slot < intervals_.size(); ++slot) {
+    const Interval& lines = intervals_[slot];
+    if (lines.empty()) continue;
+    for (std::size_t band = first_band(lines); band < end_band(lines); ++band) band_slots_[next[band]++] = slot;
+  }
 }
 
 void ObjectBoard::check_line(std::uint32_t line, std::size_t columns) const {
@@ -224,28 +235,9 @@ void ObjectBoard::check_line(std::uint32_t line, std::size_t columns) const {
                                  lines_, columns_));
 }
 
-// The slots that can touch a line of the band, in order of their numbers: those that could touch the last band and
-// last, and those that began since.
-void ObjectBoard::select_band(std::uint32_t line) {
-  const std::uint32_t band = line / kBandLines;
-  if (band == current_band_) return;
-  const auto first = static_cast<std::int32_t>(band * kBandLines);
-  const auto last = static_cast<std::int32_t>(std::min(lines_, (band + 1) * kBandLines));
-  merged_.clear();
-  if (current_band_ == kNone || band < current_band_) {
-    for (std::uint32_t slot = 0; slot < intervals_.size(); ++slot)
-      if (!intervals_[slot].empty() && intervals_[slot].begin < last && intervals_[slot].end > first)
-        merged_.push_back(slot);
-  } else {
-    newcomers_.clear();
-    for (std::uint32_t next = bucket_begin_[current_band_ + 1]; next < bucket_begin_[band + 1]; ++next)
-      if (intervals_[bucket_slots_[next]].end > first) newcomers_.push_back(bucket_slots_[next]);
-    if (band > current_band_ + 1) std::sort(newcomers_.begin(), newcomers_.end());  // those of one band are in order
-    std::erase_if(active_, [&](std::uint32_t slot) { return intervals_[slot].end <= first; });
-    std::merge(active_.begin(), active_.end(), newcomers_.begin(), newcomers_.end(), std::back_inserter(merged_));
-  }
-  active_.swap(merged_);
-  current_band_ = band;
+std::span<const std::uint32_t> ObjectBoard::active(std::uint32_t line) const {
+  const std::size_t band = line / kBandLines;
+  return std::span(band_slots_).subspan(band_begin_[band], band_begin_[band + 1] - band_begin_[band]);
 }
 
 ObjectBoard::LineEdges ObjectBoard::line_edges(std::uint32_t slot, std::uint32_t line) const {

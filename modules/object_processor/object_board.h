@@ -67,15 +67,20 @@ class ObjectBoard {
 
   // Merges what the board's processors show on `line` (0..lines-1) into `out`, which holds what arrives from processors
   // with lower numbers, or is cleared; `out` has this board's columns. Strictly smaller depth wins, so that equal depth
-  // keeps the lower number. Lines taken in order, some left out or not, cost nothing extra; a step back looks at every
-  // slot once.
+  // keeps the lower number.
   void evaluate_line(std::uint32_t line, frame::FragmentLine& out);
 
   // The same as spans, for whoever compares them (LineComposer): everything that the board's processors cover on the
   // line. Counts what evaluate_line into an empty line counts. What is returned stays until a line of another band is
   // asked for, bands being kBandLines lines from a multiple of it on, or a copy. Not with late carries
   // (covers_in_spans).
-  const frame::CoveredLine& cover_line(std::uint32_t line);
+  const frame::CoveredLine& cover_line(std::uint32_t line) {
+    const frame::CoveredLine* covered = nullptr;
+    cover_lines(line, 1, 1, &covered);
+    return *covered;
+  }
+  // The same of `count` lines from `line` on, `step` apart and all of one band.
+  void cover_lines(std::uint32_t line, std::size_t count, std::uint32_t step, const frame::CoveredLine** covered);
   bool covers_in_spans() const { return !late_carry_; }
 
   const BoardCounters& counters() const { return counters_; }
@@ -105,9 +110,10 @@ class ObjectBoard {
   void reserve(std::size_t slots);
   void load(std::uint32_t slot);
   Interval interval_of(const Edges& edges, const HalfPlanes& planes) const;
-  void rebuild_buckets();
+  void sort_into_bands();
   void check_line(std::uint32_t line, std::size_t columns) const;
-  void select_band(std::uint32_t line);
+  // The slots that can touch a line of the band, in order of their numbers.
+  std::span<const std::uint32_t> active(std::uint32_t line) const;
   void make_ready(std::uint32_t line);
   void evaluate_processor(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out);
   void evaluate_late_carry(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out);
@@ -148,24 +154,21 @@ class ObjectBoard {
   std::vector<Borders> borders_;                // of the backup words, where they are in closed form
   std::vector<Interval> intervals_;             // lines that the backup words can touch
   std::vector<std::uint8_t> careful_;           // whether an edge could wrap, or has no place in Borders
-  std::vector<std::uint8_t> changed_;           // since the last copy
+  std::uint32_t careful_count_ = 0;
+  std::vector<std::uint8_t> changed_;  // since the last copy
 
-  std::vector<std::uint32_t> changes_;       // the slots with changed_ set
-  std::vector<std::uint32_t> bucket_begin_;  // bands + 1: where the slots that begin in a band stand in bucket_slots_
-  std::vector<std::uint32_t> bucket_slots_;  // in order of their numbers within a band
-  std::vector<std::uint32_t> touched_by_;    // a line: how many slots can touch it
+  std::vector<std::uint32_t> changes_;     // the slots with changed_ set
+  std::vector<std::uint32_t> band_begin_;  // bands + 1: where the slots that can touch a band stand in band_slots_
+  std::vector<std::uint32_t> band_slots_;  // in order of their numbers within a band
+  std::vector<std::uint32_t> touched_by_;  // a line: how many slots can touch it
 
-  std::vector<std::uint32_t> active_;     // slots that can touch a line of current_band_, in order of their numbers
-  std::vector<std::uint32_t> merged_;     // the next active_, in the making
-  std::vector<std::uint32_t> newcomers_;  // of them, those that begin after the band before
-  std::uint32_t current_band_ = kNone;
   std::vector<frame::CoveredSpan> spans_;  // of the band that is ready
 
   // Of the line being evaluated. winner_ is zero between lines.
   Interval touched_;
   std::vector<std::uint32_t> winner_;  // slot + 1 of this board's nearest so far, or 0; one column more than the screen
-  std::array<std::vector<std::uint32_t>, 3> normal_;  // words of the winners before normalisation
-  std::vector<std::uint64_t> seen_;                   // a bit a column, for each line of a band
+  std::array<std::vector<std::uint32_t>, 3> normal_;                       // words of the winners before normalisation
+  std::vector<std::uint64_t> seen_;                                        // a bit a column, for each line of a band
   std::array<std::vector<frame::CoveredSpan>, kBandLines> careful_spans_;  // of the band that is ready
 };
 

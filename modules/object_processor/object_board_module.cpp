@@ -56,8 +56,10 @@ void ObjectBoardModule::synchronise(stream::SyncPayload& payload, sc_core::sc_ti
   }
   payload_.frame = payload.frame;
   delay += first_pixel_;
-  for (std::size_t k = 0; k < payload.lines; ++k)
-    send_line(payload.line + k * payload.step, delay + stream::to_time(payload.later_ps[k]));
+  if (board_.covers_in_spans())
+    send_spans(payload.lines, delay);
+  else
+    send_pixels(payload.lines, delay);
 }
 
 void ObjectBoardModule::retrace(const stream::SyncPayload& payload) {
@@ -68,16 +70,28 @@ void ObjectBoardModule::retrace(const stream::SyncPayload& payload) {
   words_ahead_ = words_loaded_ - words_whole_;
 }
 
-void ObjectBoardModule::send_line(std::size_t line, sc_core::sc_time delay) {
-  payload_.line = line;
-  if (board_.covers_in_spans()) {
-    payload_.covered = &board_.cover_line(static_cast<std::uint32_t>(line));
-  } else {
+void ObjectBoardModule::send_spans(const stream::Lines& lines, sc_core::sc_time& delay) {
+  spans_.lines = lines;
+  board_.cover_lines(static_cast<std::uint32_t>(lines.first), lines.count, static_cast<std::uint32_t>(lines.step),
+                     spans_.covered.data());
+  payload_.spans = &spans_;
+  send(lines.count, delay);
+}
+
+void ObjectBoardModule::send_pixels(const stream::Lines& lines, const sc_core::sc_time& delay) {
+  for (std::size_t k = 0; k < lines.count; ++k) {
+    payload_.line = lines.number(k);
     payload_.fragments = pool_.acquire();
-    board_.evaluate_line(static_cast<std::uint32_t>(line), *payload_.fragments);
+    board_.evaluate_line(static_cast<std::uint32_t>(payload_.line), *payload_.fragments);
+    sc_core::sc_time of_line = delay + stream::to_time(lines.later_ps[k]);
+    send(1, of_line);
   }
-  link_.record(board_.columns(), Cycles(board_.columns()));
-  ++lines_sent_;
+}
+
+void ObjectBoardModule::send(std::size_t lines, sc_core::sc_time& delay) {
+  const std::uint64_t words = lines * board_.columns();
+  link_.record(words, Cycles(words));
+  lines_sent_ += lines;
   out->b_transport(payload_, delay);
 }
 

@@ -39,13 +39,16 @@ class ObjectBoardModule : public sc_core::sc_module {
   void write(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   void synchronise(stream::SyncPayload& payload, sc_core::sc_time& delay);
   void retrace(const stream::SyncPayload& payload);
-  void send_line(std::size_t line, sc_core::sc_time delay);
+  void send_spans(const stream::Lines& lines, sc_core::sc_time& delay);
+  void send_pixels(const stream::Lines& lines, const sc_core::sc_time& delay);
+  void send(std::size_t lines, sc_core::sc_time& delay);
 
   std::uint32_t board_number_;
   ObjectBoard& board_;
   sc_core::sc_time first_pixel_;
   stream::Link& link_;
   stream::LinePool pool_;
+  stream::SpanLines spans_;
   stream::FragmentPayload payload_;
   std::uint64_t words_loaded_ = 0;
   std::uint64_t lines_sent_ = 0;

@@ -54,13 +54,13 @@ inline constexpr unsigned kMarkBits = 8;
 inline constexpr std::uint32_t kMarkMask = (1U << kMarkBits) - 1;
 
 struct DrawRequest {
-  const frame::CoveredSpan* spans = nullptr;
-  std::size_t count = 0;
+  const frame::CoveredLine* const* boards = nullptr;  // in the order of processor numbers
+  std::size_t count = 0;                              // of them
   std::uint32_t line = 0;
   unsigned word_bits = 24;
-  std::uint32_t first_mark = 0;                     // of the first span; each has the next
+  // The first span's mark is 1, each has the next.
   const frame::FragmentSource** sources = nullptr;  // written, by mark
-  // At multiples of 64 bytes, 16 words to spare:
+  // At multiples of 64 bytes, 32 words to spare:
   std::uint32_t* depth = nullptr;   // nearest so far
   std::uint32_t* winner = nullptr;  // mark of the nearest; null: depth holds keys
 };
@@ -70,7 +70,7 @@ struct ResolveRequest {
   std::uint32_t mark_mask = 0;
   std::uint32_t columns = 0;
   std::uint32_t line = 0;
-  const frame::FragmentSource* const* sources = nullptr;  // by mark; 0 is nobody
+  const frame::FragmentSource* const* sources = nullptr;  // by mark; 0 is nobody, whose words are 0
   unsigned word_bits = 24;
   unsigned normal_bits = 12;
   // Written, with room for 32 pixels more. `normal` as before normalisation, where `link` is null.

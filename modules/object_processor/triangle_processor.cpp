@@ -1,6 +1,5 @@
 #include "modules/object_processor/triangle_processor.h"
 
-#include <bit>
 #include <cstddef>
 
 #include "modules/object_processor/prenormaliser.h"
@@ -13,10 +12,6 @@ static_assert(sizeof(TriangleWords) == sizeof(ProcessorWords));
 static_assert(offsetof(TriangleWords, depth) == sizeof(std::uint32_t) * word_index(kDepth, 0));
 static_assert(offsetof(TriangleWords, normals) == sizeof(std::uint32_t) * word_index(kNormalX, 0));
 static_assert(offsetof(TriangleWords, material) == sizeof(std::uint32_t) * kMaterialIndex);
-
-ProcessorWords to_words(const TriangleWords& triangle) { return std::bit_cast<ProcessorWords>(triangle); }
-
-TriangleWords to_triangle(const ProcessorWords& words) { return std::bit_cast<TriangleWords>(words); }
 
 TriangleWords parked_triangle(unsigned word_bits) {
   const auto all_ones = static_cast<std::uint32_t>(low_mask(word_bits));

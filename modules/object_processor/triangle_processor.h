@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -44,8 +45,8 @@ struct TriangleWords {
   friend bool operator==(const TriangleWords&, const TriangleWords&) = default;
 };
 
-ProcessorWords to_words(const TriangleWords& triangle);
-TriangleWords to_triangle(const ProcessorWords& words);
+inline ProcessorWords to_words(const TriangleWords& triangle) { return std::bit_cast<ProcessorWords>(triangle); }
+inline TriangleWords to_triangle(const ProcessorWords& words) { return std::bit_cast<TriangleWords>(words); }
 
 // The words of a slot without an object: its edges are -1 everywhere, so it never covers a pixel.
 TriangleWords parked_triangle(unsigned word_bits);

@@ -12,14 +12,34 @@
 
 namespace rastertlm::stream {
 
-// A scan line of fragments on its way to the screen: its pixels, or, from a board, the spans that it covers, to which
+// Lines whose numbers differ by less, from a multiple of it on, may travel together: a band.
+inline constexpr std::size_t kBandLines = 8;
+
+// Some lines of a band, one after the other; or just one.
+struct Lines {
+  std::size_t first = 0;
+  std::size_t count = 1;
+  std::size_t step = 1;                              // between their numbers: 2 where the video is interlaced
+  std::array<std::uint64_t, kBandLines> later_ps{};  // by which each begins after the first
+
+  std::size_t number(std::size_t k) const { return first + k * step; }
+  friend bool operator==(const Lines&, const Lines&) = default;
+};
+
+// What a board covers of some lines, before anybody looks at a pixel of it.
+struct SpanLines {
+  Lines lines;
+  std::array<const frame::CoveredLine*, kBandLines> covered{};  // of each
+};
+
+// A scan line of fragments on its way to the screen: its pixels; or, from a board, the spans of some lines, to which
 // pixels are what is seen of them in the end. Whoever receives it takes the handle, and may write into the line; spans
-// stay the sender's, until its next line.
+// stay the sender's, until it is told of other lines.
 struct FragmentPayload : tlm::tlm_generic_payload {
   std::uint64_t frame = 0;  // displayed frame
-  std::size_t line = 0;
+  std::size_t line = 0;     // of pixels
   LinePool::Handle fragments;
-  const frame::CoveredLine* covered = nullptr;
+  const SpanLines* spans = nullptr;
 };
 
 // A shaded line. `fragments` is what observers may look at beside the levels.
@@ -30,19 +50,13 @@ struct RgbPayload : tlm::tlm_generic_payload {
   const frame::FragmentLine* fragments = nullptr;
 };
 
-// Lines whose numbers differ by less, from a multiple of it on, may be announced together.
-inline constexpr std::size_t kBandLines = 8;
-
 // The video timing's signals: vertical retrace begins (with or without a copy of the loading RAMs), or a line begins;
 // or, where nobody minds, the lines of a band begin, one after the other.
 struct SyncPayload : tlm::tlm_generic_payload {
   enum class Kind { retrace, line };
   Kind kind = Kind::line;
   std::uint64_t frame = 0;
-  std::size_t line = 0;
-  std::size_t lines = 1;  // line: so many are announced together, `step` apart, 1 .. kBandLines
-  std::size_t step = 1;
-  std::array<std::uint64_t, kBandLines> later_ps{};  // line: by which each begins after the first
+  Lines lines;         // line
   bool copy = false;   // retrace: loading RAMs go to backup RAMs
   bool whole = false;  // retrace: they hold a whole frame, with which the computation units have finished
   bool swap = false;   // retrace: so do the tables, and the hosts go on to the next frame

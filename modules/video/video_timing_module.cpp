@@ -55,8 +55,7 @@ void VideoTimingModule::begin_retrace(std::uint64_t video_frame) {
   // A whole frame of objects may be shown before its tables; the hosts wait for both.
   whole_shown_ = payload_.whole && !payload_.swap;
   payload_.switch_tables = false;
-  payload_.line = 0;
-  payload_.lines = 1;
+  payload_.lines = {};
   announce(SyncPayload::Kind::retrace, Cycles(0));
   if (payload_.swap) swapped.notify(sc_core::SC_ZERO_TIME);
   payload_.copy = payload_.whole = payload_.swap = payload_.switch_tables = false;
@@ -64,13 +63,12 @@ void VideoTimingModule::begin_retrace(std::uint64_t video_frame) {
 
 // `line` and those that are announced with it. Returns the first that are not.
 std::size_t VideoTimingModule::set_lines(std::size_t line) {
-  payload_.line = line;
-  payload_.lines = 0;
-  payload_.step = timing_.fields;
+  stream::Lines& lines = payload_.lines;
+  lines = {line, 0, timing_.fields, {}};
   const std::size_t band_end = in_bands_ ? (line / stream::kBandLines + 1) * stream::kBandLines : line + 1;
   const std::uint64_t first_ps = timing_.clock.picoseconds(timing_.line_start(line));
   for (; line < std::min(lines_, band_end); line += timing_.fields)
-    payload_.later_ps[payload_.lines++] = timing_.clock.picoseconds(timing_.line_start(line)) - first_ps;
+    lines.later_ps[lines.count++] = timing_.clock.picoseconds(timing_.line_start(line)) - first_ps;
   return line;
 }
 

@@ -320,7 +320,7 @@ void Imogene::bind_display() {
   // A line concerns tables only where they are written while it is announced.
   if (machine_.loader.when == shading::LoadTime::frame) {
     video_timing_->announce_retraces_alone(0);
-    video_timing_->announce_lines_in_bands();
+    if (boards_.front().covers_in_spans()) video_timing_->announce_lines_in_bands();
   }
   video_timing_->announce_retraces_alone(1);
   for (std::size_t k = 0; k < boards; ++k) {

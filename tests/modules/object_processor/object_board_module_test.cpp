@@ -63,19 +63,24 @@ class Surroundings : public sc_core::sc_module {
   void line(std::uint64_t frame, std::size_t number, std::uint64_t delay_ps = 0) {
     stream::SyncPayload payload;
     payload.frame = frame;
-    payload.line = number;
+    payload.lines.first = number;
     sc_core::sc_time delay = stream::to_time(delay_ps);
     sync->b_transport(payload, delay);
   }
 
  private:
   void receive(stream::FragmentPayload& payload, sc_core::sc_time& delay) {
-    ASSERT_NE(payload.covered, nullptr);  // a board with right carries sends spans
+    ASSERT_NE(payload.spans, nullptr);  // a board with right carries sends spans
     EXPECT_EQ(payload.fragments, nullptr);
-    frame::FragmentLine line;
-    line.resize(kColumns);
-    composer_.compose(std::array{payload.covered}, static_cast<std::uint32_t>(payload.line), line);
-    lines.push_back({payload.frame, payload.line, stream::picoseconds_now() + delay.value(), line});
+    const stream::SpanLines& spans = *payload.spans;
+    for (std::size_t k = 0; k < spans.lines.count; ++k) {
+      frame::FragmentLine line;
+      line.resize(kColumns);
+      const std::size_t number = spans.lines.number(k);
+      composer_.compose(std::array{spans.covered[k]}, static_cast<std::uint32_t>(number), line);
+      lines.push_back(
+          {payload.frame, number, stream::picoseconds_now() + delay.value() + spans.lines.later_ps[k], line});
+    }
   }
 
   LineComposer composer_{ObjectProcessorParameters{}, kColumns};
@@ -196,18 +201,14 @@ TEST(ObjectBoardModule, ALineLeavesAtItsTime) {
   EXPECT_EQ(m.link.bytes(), 8U * kColumns);
 }
 
-// Lines that are announced together leave one by one, each as if it had been announced alone; the spans of all are
-// there until those of another band are asked for.
-TEST(ObjectBoardModule, LinesOfABandLeaveOneByOne) {
+// Lines that are announced together leave together, each at the time at which it would have left alone.
+TEST(ObjectBoardModule, LinesOfABandLeaveTogether) {
   Machine m;
   m.around.write(bus_address(kBoard, 3, 0), everywhere(1000), 77);
   m.around.retrace(true);
   stream::SyncPayload payload;
   payload.frame = 4;
-  payload.line = 1;
-  payload.lines = 2;
-  payload.step = 2;
-  payload.later_ps = {0, 500'000};
+  payload.lines = {1, 2, 2, {0, 500'000}};
   sc_core::sc_time delay = stream::to_time(1'000'000);
   m.around.sync->b_transport(payload, delay);
   ASSERT_EQ(m.around.lines.size(), 2U);

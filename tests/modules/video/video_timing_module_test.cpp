@@ -55,10 +55,9 @@ class Listeners : public sc_core::sc_module {
   void hear(int listener, SyncPayload& payload, sc_core::sc_time& delay) {
     EXPECT_FALSE(payload.switch_tables);  // that is the loader's to say
     ++calls;
-    for (std::size_t k = 0; k < payload.lines; ++k)
+    for (std::size_t k = 0; k < payload.lines.count; ++k)
       heard.push_back({listener, payload.kind == SyncPayload::Kind::retrace, payload.copy, payload.swap, payload.frame,
-                       payload.line + k * payload.step,
-                       stream::picoseconds_now() + delay.value() + payload.later_ps[k]});
+                       payload.lines.number(k), stream::picoseconds_now() + delay.value() + payload.lines.later_ps[k]});
     delay += sc_core::sc_time(7, sc_core::SC_MS);  // is nobody else's delay
   }
 };

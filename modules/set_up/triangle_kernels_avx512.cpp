@@ -1,0 +1,2 @@
+#define RASTERTLM_KERNELS triangle_kernels_avx512
+#include "modules/set_up/triangle_kernels_body.inc"
