@@ -146,11 +146,16 @@ TEST(ObjectBoard, StartsParkedAndTakesNoTime) {
   EXPECT_EQ(board.backup(999'999), parked_triangle(24));
 }
 
+// And four a band of eight lines that it can touch.
 TEST(ObjectBoard, MemoryIsAFewHundredBytesASlot) {
-  ObjectBoard board({}, 4096, 0, 512, 512);
-  for (std::uint32_t slot = 0; slot < 4096; ++slot) board.write(slot, full_screen(slot, 0));
-  board.copy();
-  EXPECT_LT(board.memory_bytes(), 4096U * 300U);
+  ObjectBoard tall({}, 4096, 0, 512, 512);
+  for (std::uint32_t slot = 0; slot < 4096; ++slot) tall.write(slot, full_screen(slot, 0));
+  tall.copy();
+  EXPECT_LT(tall.memory_bytes(), 4096U * (300U + 64U * 4U));
+  ObjectBoard low({}, 4096, 0, 512, 8);
+  for (std::uint32_t slot = 0; slot < 4096; ++slot) low.write(slot, full_screen(slot, 0));
+  low.copy();
+  EXPECT_LT(low.memory_bytes(), 4096U * (300U + 4U));
 }
 
 TEST(ObjectBoard, VisitsOnlyTheLinesOfATriangle) {
