@@ -1,0 +1,242 @@
+#include "modules/set_up/span_load.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/fixed_point.h"
+
+namespace rastertlm::set_up {
+namespace {
+
+using geometry::SnappedPoint;
+using span_unit::ColourWords;
+using span_unit::EdgeWords;
+using span_unit::HalfTriangle;
+using span_unit::StartEdge;
+
+using Number = geometry::Counted<double>;
+
+// The first line or column at or after a coordinate.
+std::int64_t first_sample(std::int64_t steps, int fraction_bits) {
+  return ceil_div(steps, std::int64_t{1} << fraction_bits);
+}
+
+// The word nearest to `value` * 2^fraction_bits, modulo 2^64. Large ones are whole numbers, and so are their
+// remainders.
+std::uint64_t to_word(double value, unsigned fraction_bits) {
+  const double scaled = std::ldexp(value, static_cast<int>(fraction_bits));
+  if (std::fabs(scaled) < 0x1p62) return static_cast<std::uint64_t>(round_half_up(scaled));
+  if (!std::isfinite(scaled)) return 0;
+  const double rest = std::fmod(scaled, 0x1p64);
+  const auto magnitude = static_cast<std::uint64_t>(std::fabs(rest));
+  return rest < 0 ? 0 - magnitude : magnitude;
+}
+
+// Not horizontal, `from` above `to`.
+struct Edge {
+  SnappedPoint from;
+  SnappedPoint to;
+
+  EdgeWords words(std::int64_t line, int fraction_bits) const {
+    const std::int64_t height = to.y - from.y;
+    const std::int64_t width = to.x - from.x;
+    const std::int64_t one = std::int64_t{1} << fraction_bits;
+    EdgeWords words;
+    words.divisor = height * one;
+    words.step = floor_div(width, height);
+    words.rest_step = (width - words.step * height) * one;
+    const std::int64_t column = from.x * height + (line * one - from.y) * width;
+    words.column = ceil_div(column, words.divisor);
+    words.rest = words.column * words.divisor - column;
+    return words;
+  }
+  template <class T>
+  T slope() const {
+    return geometry::from_integer<T>(to.x - from.x) / geometry::from_integer<T>(to.y - from.y);
+  }
+};
+
+// Where registers start, about the form's origin, and how far they go sideways a line.
+template <class T>
+struct Start {
+  T x;
+  T y;
+  T slope;
+};
+
+template <class T>
+Start<T> start_of(const Edge& edge, const EdgeWords& words, std::int64_t line, const ColourTriangle& triangle,
+                  const SpanFormat& format) {
+  const T unit = T(std::ldexp(1.0, -triangle.fraction_bits));
+  const SnappedPoint& origin = triangle.corners[0];
+  const std::int64_t one = std::int64_t{1} << triangle.fraction_bits;
+  Start<T> start;
+  start.y = geometry::from_integer<T>(line * one - origin.y) * unit;
+  start.x = geometry::from_integer<T>(words.column * one - origin.x) * unit;
+  geometry::charge_integer<T>(4, 0);
+  if (format.start_edge == StartEdge::lattice) {
+    start.slope = geometry::from_integer<T>(words.step);
+  } else {
+    start.x = start.x - geometry::from_integer<T>(words.rest) / geometry::from_integer<T>(words.divisor);
+    start.slope = edge.slope<T>();
+  }
+  return start;
+}
+
+template <class T>
+ColourWords colour_words(const QuadraticForm<double>& given, const Start<T>& at, unsigned fraction_bits) {
+  const T t1(given.t1), t2(given.t2), t3(given.t3), t4(given.t4), t5(given.t5);
+  const T a = at.slope;
+  // By hand what QuadraticForm::at does, so that the sums are shared.
+  const T gradient_x = t5 * at.x + t4 * at.y + t2;
+  const T value = gradient_x * at.x + (t3 * at.y + t1) * at.y + T(given.t0);
+  const T along_x = gradient_x + t5 * at.x;             // dI/dX
+  const T along_y = t4 * at.x + (t3 + t3) * at.y + t1;  // dI/dY
+  const T second = t5 * a * a + t4 * a + t3;
+  ColourWords words;
+  words.start = to_word(geometry::plain(value + T(0.5)), fraction_bits);
+  words.pixel_step = to_word(geometry::plain(along_x + t5), fraction_bits);
+  words.line_step = to_word(geometry::plain(along_x * a + along_y + second), fraction_bits);
+  words.line_line = to_word(geometry::plain(second + second), fraction_bits);
+  words.line_pixel = to_word(geometry::plain(t5 * a + t5 * a + t4), fraction_bits);
+  words.pixel_pixel = to_word(geometry::plain(t5 + t5), fraction_bits);
+  if constexpr (!std::is_arithmetic_v<T>) geometry::operation_counts.convert += 6;
+  return words;
+}
+
+// The same where second differences are nothing.
+template <class T>
+ColourWords linear_words(const QuadraticForm<double>& given, const Start<T>& at, unsigned fraction_bits) {
+  const T t1(given.t1), t2(given.t2);
+  ColourWords words;
+  words.start = to_word(geometry::plain(t2 * at.x + t1 * at.y + T(given.t0 + 0.5)), fraction_bits);
+  words.pixel_step = to_word(given.t2, fraction_bits);
+  words.line_step = to_word(geometry::plain(t2 * at.slope + t1), fraction_bits);
+  if constexpr (!std::is_arithmetic_v<T>) geometry::operation_counts.convert += 3;
+  return words;
+}
+
+bool is_linear(const ColourTriangle& triangle) {
+  return std::all_of(triangle.colour.begin(), triangle.colour.end(),
+                     [](const auto& form) { return form.t3 == 0.0 && form.t4 == 0.0 && form.t5 == 0.0; });
+}
+
+// Depth a pixel, along x and y.
+template <class T>
+struct Slopes {
+  T x;
+  T y;
+};
+
+template <class T>
+Slopes<T> depth_slopes(const ColourTriangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  const std::int64_t e1x = b.x - a.x, e1y = b.y - a.y, e2x = c.x - a.x, e2y = c.y - a.y;
+  geometry::charge_integer<T>(5, 2);
+  const T area = geometry::from_integer<T>(e1x * e2y - e2x * e1y);
+  const T scale = T(std::ldexp(1.0, triangle.fraction_bits)) / area;
+  const T d1 = T(triangle.depth[1]) - T(triangle.depth[0]);
+  const T d2 = T(triangle.depth[2]) - T(triangle.depth[0]);
+  return {(d1 * geometry::from_integer<T>(e2y) - d2 * geometry::from_integer<T>(e1y)) * scale,
+          (d2 * geometry::from_integer<T>(e1x) - d1 * geometry::from_integer<T>(e2x)) * scale};
+}
+
+template <class T>
+void load_registers(const Edge& edge, std::int64_t line, const ColourTriangle& triangle, const Slopes<T>& depth,
+                    const SpanFormat& format, bool linear, HalfTriangle& half) {
+  half.start = edge.words(line, triangle.fraction_bits);
+  geometry::charge_integer<T>(8, 4);
+  const Start<T> at = start_of<T>(edge, half.start, line, triangle, format);
+  for (std::size_t c = 0; c < span_unit::kChannels; ++c)
+    half.colour[c] = linear ? linear_words<T>(triangle.colour[c], at, format.fraction_bits)
+                            : colour_words<T>(triangle.colour[c], at, format.fraction_bits);
+  const auto word = [&](const T& value) { return to_word(geometry::plain(value), format.depth_fraction_bits); };
+  half.depth = {word(depth.x * at.x + depth.y * at.y + T(triangle.depth[0])), word(depth.x * at.slope + depth.y),
+                word(depth.x)};
+  if constexpr (!std::is_arithmetic_v<T>) geometry::operation_counts.convert += 3;
+}
+
+// Corners from the top down; where two are level, in any order.
+std::array<SnappedPoint, 3> from_top(std::array<SnappedPoint, 3> corners) {
+  if (corners[1].y < corners[0].y) std::swap(corners[0], corners[1]);
+  if (corners[2].y < corners[1].y) std::swap(corners[1], corners[2]);
+  if (corners[1].y < corners[0].y) std::swap(corners[0], corners[1]);
+  return corners;
+}
+
+}  // namespace
+
+span_unit::TriangleLoad span_load(const ColourTriangle& triangle, const SpanFormat& format) {
+  span_unit::TriangleLoad load;
+  load.object = triangle.object;
+  load.material = triangle.material;
+  const auto [top, middle, bottom] = from_top(triangle.corners);
+  const int q = triangle.fraction_bits;
+  const auto on_screen = [&](std::int64_t line) { return std::clamp<std::int64_t>(line, 0, format.lines); };
+  const std::int64_t first = on_screen(first_sample(top.y, q));
+  const std::int64_t second = on_screen(first_sample(middle.y, q));
+  const std::int64_t end = on_screen(first_sample(bottom.y, q));
+  if (first >= end) return load;
+  const Edge whole{top, bottom};
+  // Twice the area, and where the middle corner lies of the long edge.
+  const bool middle_left = (bottom.x - top.x) * (middle.y - top.y) - (middle.x - top.x) * (bottom.y - top.y) > 0;
+  const bool linear = is_linear(triangle);
+  const Slopes<double> depth = depth_slopes<double>(triangle);
+  load.second_goes_on = !middle_left;
+  for (int lower = 0; lower < 2; ++lower) {
+    HalfTriangle& half = load.halves[load.count];
+    half.first_line = lower == 0 ? first : second;
+    half.lines = (lower == 0 ? second : end) - half.first_line;
+    if (half.lines <= 0) continue;
+    const Edge edge = lower == 0 ? Edge{top, middle} : Edge{middle, bottom};
+    const bool is_second = load.count == 1;
+    if (middle_left || !is_second)
+      load_registers<double>(middle_left ? edge : whole, half.first_line, triangle, depth, format, linear, half);
+    if (!middle_left || !is_second) half.end = (middle_left ? whole : edge).words(half.first_line, q);
+    ++load.count;
+  }
+  return load;
+}
+
+std::uint64_t load_words(const span_unit::TriangleLoad& load, bool linear) {
+  constexpr std::uint64_t kEdge = 5;
+  constexpr std::uint64_t kLines = 1;
+  if (load.count == 0) return 0;
+  const std::uint64_t colour = linear ? 3 : 6;
+  std::uint64_t words = 1 + kLines + 2 * kEdge + span_unit::kChannels * colour + 3;  // the first line's number too
+  // Neither 2 T5 nor what a pixel adds to depth changes.
+  const std::uint64_t again = linear ? 2 : 5;
+  if (load.count == 2) words += kLines + kEdge + (load.second_goes_on ? 0 : span_unit::kChannels * again + 2);
+  return words;
+}
+
+SpanLoadCosts span_load_costs(bool linear) {
+  ColourTriangle triangle;
+  triangle.corners = {SnappedPoint{0, 0}, SnappedPoint{0, 160}, SnappedPoint{160, 0}};
+  triangle.fraction_bits = 4;
+  const SpanFormat format;
+  const Edge edge{{0, 0}, {0, 160}};
+  SpanLoadCosts costs;
+  geometry::OperationCounts before = geometry::operation_counts;
+  geometry::charge_integer<Number>(12, 2);  // sorting, lines, the side of the middle corner
+  const Slopes<Number> depth = depth_slopes<Number>(triangle);
+  costs.triangle = geometry::operation_counts - before;
+  before = geometry::operation_counts;
+  HalfTriangle half;
+  load_registers<Number>(edge, 0, triangle, depth, format, linear, half);
+  geometry::charge_integer<Number>(8, 4);  // the end edge
+  costs.start = geometry::operation_counts - before;
+  before = geometry::operation_counts;
+  geometry::charge_integer<Number>(8, 4);
+  costs.goes_on = geometry::operation_counts - before;
+  return costs;
+}
+
+geometry::OperationCounts cost_of(const span_unit::TriangleLoad& load, const SpanLoadCosts& costs) {
+  geometry::OperationCounts counts = costs.triangle;
+  if (load.count > 0) counts += costs.start;
+  if (load.count == 2) counts += load.second_goes_on ? costs.goes_on : costs.start;
+  return counts;
+}
+
+}  // namespace rastertlm::set_up

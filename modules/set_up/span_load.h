@@ -1,0 +1,55 @@
+// From a coloured triangle to the loads of a span unit (000/001, section 5): its two horizontal-sided halves, their
+// edges as integers, and the registers at the first pixel of each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "modules/set_up/quadratic_form.h"
+#include "modules/span_unit/parameters.h"
+#include "modules/span_unit/span_words.h"
+#include "src/geometry/counted.h"
+#include "src/geometry/snapping.h"
+
+namespace rastertlm::set_up {
+
+// What the span unit is to draw.
+struct ColourTriangle {
+  std::array<geometry::SnappedPoint, 3> corners{};  // in steps of 2^-fraction_bits pixel
+  int fraction_bits = 0;
+  std::array<QuadraticForm<double>, 3> colour{};  // red, green, blue, about corner 0
+  std::array<double, 3> depth{};                  // at the corners, in units of the depth word
+  std::uint32_t object = 0;                       // from 1
+  std::uint32_t material = 0;
+};
+
+struct SpanFormat {
+  unsigned word_bits = 32;
+  unsigned fraction_bits = 20;
+  unsigned depth_fraction_bits = 8;
+  span_unit::StartEdge start_edge = span_unit::StartEdge::lattice;
+  std::int64_t lines = 512;  // of the screen
+
+  static SpanFormat of(const span_unit::SpanUnitParameters& parameters, std::int64_t lines) {
+    return {static_cast<unsigned>(parameters.word_bits), static_cast<unsigned>(parameters.fraction_bits),
+            static_cast<unsigned>(parameters.depth_fraction_bits), parameters.start_edge, lines};
+  }
+};
+
+// Lines above and below the screen are left out: the host begins at the first line that is seen. A sample on a left or
+// a top edge is inside, on others it is not, exactly. No halves where no line of the screen is touched.
+span_unit::TriangleLoad span_load(const ColourTriangle& triangle, const SpanFormat& format);
+
+// Words that the host writes for it. `linear`: the machine's second differences are wired to zero (Gouraud).
+std::uint64_t load_words(const span_unit::TriangleLoad& load, bool linear);
+
+// What it costs the host.
+struct SpanLoadCosts {
+  geometry::OperationCounts triangle;  // sorting, the depth plane
+  geometry::OperationCounts start;     // a half whose start edge and registers are loaded
+  geometry::OperationCounts goes_on;   // one that goes on with them
+};
+SpanLoadCosts span_load_costs(bool linear);
+geometry::OperationCounts cost_of(const span_unit::TriangleLoad& load, const SpanLoadCosts& costs);
+
+}  // namespace rastertlm::set_up

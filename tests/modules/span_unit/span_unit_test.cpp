@@ -1,0 +1,179 @@
+// Does the span unit show what its registers step through, in every width, variant and start edge, and count its
+// clocks?
+#include "modules/span_unit/span_unit.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "modules/span_unit/span_registers.h"
+
+namespace rastertlm::span_unit {
+namespace {
+
+class SpanUnitTest : public testing::TestWithParam<VectorVariant> {
+ protected:
+  std::mt19937_64 random_{11};
+  std::int64_t number(std::int64_t low, std::int64_t high) {
+    return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
+  }
+  EdgeWords edge(std::int64_t low, std::int64_t high) {
+    EdgeWords words;
+    words.column = number(low, high);
+    words.step = number(-5, 5);
+    words.divisor = number(1, 1000);
+    words.rest = number(0, words.divisor - 1);
+    words.rest_step = number(0, words.divisor - 1);
+    return words;
+  }
+  TriangleLoad load(std::int64_t lines) {
+    TriangleLoad load;
+    load.count = static_cast<std::size_t>(number(1, 2));
+    load.second_goes_on = number(0, 1) == 1;
+    load.halves[0].lines = number(1, lines / 2);
+    load.halves[1].first_line = load.halves[0].lines;
+    load.halves[1].lines = number(1, lines / 2);
+    for (HalfTriangle& half : load.halves) {
+      half.start = edge(-20, 40);
+      half.end = edge(30, 90);
+      for (ColourWords& c : half.colour) c = {random_(), random_(), random_(), random_(), random_(), random_()};
+      half.depth = {random_(), random_(), random_()};
+    }
+    return load;
+  }
+};
+
+struct Pixel {
+  std::uint32_t levels = 0;
+  std::uint32_t depth = 0;
+  bool shown = false;
+  friend bool operator==(const Pixel&, const Pixel&) = default;
+};
+
+constexpr std::uint32_t kColumns = 70;
+constexpr std::uint32_t kLines = 40;
+using Picture = std::vector<Pixel>;
+
+struct Drawn {
+  Picture picture = Picture(std::size_t{kColumns} * kLines);
+  std::uint64_t cycles = 0;
+};
+
+Drawn drawn_by_unit(const SpanUnitParameters& parameters, const TriangleLoad& load, VectorVariant variant) {
+  Drawn drawn;
+  SpanUnit unit(parameters, kColumns, kLines, variant);
+  unit.draw(load, [&](const Span& span) {
+    drawn.cycles += span.cycles;
+    for (std::uint32_t x = 0; x < span.count; ++x)
+      drawn.picture[std::size_t{span.line} * kColumns + span.column + x] = {span.levels[x], span.depths[x], true};
+  });
+  return drawn;
+}
+
+// Clock by clock: figure 6, three sets and a linear one.
+Drawn drawn_by_registers(const SpanUnitParameters& parameters, const TriangleLoad& load) {
+  Drawn drawn;
+  const auto word_bits = static_cast<unsigned>(parameters.word_bits);
+  const auto fraction = static_cast<unsigned>(parameters.fraction_bits);
+  std::vector<ColourRegisters> colour(3, ColourRegisters(word_bits));
+  ColourRegisters depth(static_cast<unsigned>(parameters.depth_bits + parameters.depth_fraction_bits));
+  const bool lattice = parameters.start_edge == StartEdge::lattice;
+  EdgeWords start;
+  EdgeWords end;
+  for (std::size_t h = 0; h < load.count; ++h) {
+    const HalfTriangle& half = load.halves[h];
+    const bool loads = h == 0 || !load.second_goes_on;
+    for (std::int64_t k = 0; k < half.lines; ++k) {
+      bool carries = false;
+      if (k == 0 && loads) {
+        for (std::size_t c = 0; c < 3; ++c) colour[c].load(half.colour[c]);
+        depth.load({half.depth.start, half.depth.line_step, half.depth.pixel_step, 0, 0, 0});
+        start = half.start;
+      } else {
+        carries = start.advance();
+        for (ColourRegisters& c : colour) c.step_line(carries && lattice);
+        depth.step_line(carries && lattice);
+      }
+      if (k == 0 && (h == 0 || load.second_goes_on))
+        end = half.end;
+      else
+        end.advance();
+      std::uint64_t cycles = 0;
+      for (std::int64_t x = start.column; x < std::min<std::int64_t>(end.column, kColumns); ++x) {
+        if (x >= 0) {
+          Pixel& pixel = drawn.picture[static_cast<std::size_t>((half.first_line + k) * kColumns + x)];
+          pixel = {0, static_cast<std::uint32_t>(depth.i() >> parameters.depth_fraction_bits), true};
+          for (std::size_t c = 0; c < 3; ++c) pixel.levels |= level_of(colour[c].i(), word_bits, fraction) << (8 * c);
+        }
+        for (ColourRegisters& c : colour) c.step_pixel();
+        depth.step_pixel();
+        ++cycles;
+      }
+      drawn.cycles += std::max<std::uint64_t>(cycles, 1);
+      if (carries && lattice && parameters.carry == Carry::clock) ++drawn.cycles;
+    }
+  }
+  return drawn;
+}
+
+TEST_P(SpanUnitTest, ShowsWhatTheRegistersStepThrough) {
+  std::size_t shown = 0;
+  for (const std::int64_t word : {18, 32, 33, 40})
+    for (const StartEdge start : {StartEdge::lattice, StartEdge::published})
+      for (const Carry carry : {Carry::rank, Carry::clock})
+        for (int round = 0; round < 40; ++round) {
+          SpanUnitParameters parameters;
+          parameters.word_bits = word;
+          parameters.fraction_bits = word - kIntegerBits;
+          parameters.depth_bits = number(8, 24);
+          parameters.depth_fraction_bits = number(0, 8);
+          parameters.start_edge = start;
+          parameters.carry = carry;
+          const TriangleLoad triangle = load(kLines);
+          const Drawn by_unit = drawn_by_unit(parameters, triangle, GetParam());
+          const Drawn by_registers = drawn_by_registers(parameters, triangle);
+          ASSERT_EQ(by_unit.picture, by_registers.picture);
+          ASSERT_EQ(by_unit.cycles, by_registers.cycles);
+          for (const Pixel& pixel : by_unit.picture) shown += pixel.shown ? 1 : 0;
+        }
+  EXPECT_GT(shown, 100'000U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, SpanUnitTest, testing::ValuesIn(available_vector_variants()),
+                         [](const auto& one) { return name_of(one.param); });
+
+TEST(SpanUnit, SharedColumnsEndALineTogether) {
+  TriangleLoad load;
+  load.count = 1;
+  load.halves[0].lines = 1;
+  load.halves[0].start.column = 3;
+  load.halves[0].end.column = 20;  // 17 pixels
+  const std::uint64_t expected[] = {17, 9, 6, 5};
+  for (std::int64_t units = 1; units <= 4; ++units) {
+    SpanUnitParameters parameters;
+    parameters.units = units;
+    EXPECT_EQ(drawn_by_unit(parameters, load, VectorVariant::baseline).cycles, expected[units - 1]);
+    parameters.pixel_cycles = 3;
+    EXPECT_EQ(drawn_by_unit(parameters, load, VectorVariant::baseline).cycles, 3 * expected[units - 1]);
+    parameters.share = Share::triangles;
+    EXPECT_EQ(drawn_by_unit(parameters, load, VectorVariant::baseline).cycles, 51U);
+  }
+}
+
+TEST(SpanUnitParameters, AreRefusedWhereWordsDoNotHoldThem) {
+  SpanUnitParameters parameters;
+  parameters.fraction_bits = 23;
+  parameters.depth_bits = 30;
+  Diagnostics diagnostics;
+  parameters.check("machine.toml", diagnostics);
+  ASSERT_EQ(diagnostics.list().size(), 2U);
+  EXPECT_EQ(diagnostics.list()[0].key, "span_unit.fraction_bits");
+  EXPECT_NE(diagnostics.list()[0].message.find("at most 22"), std::string::npos);
+  EXPECT_EQ(diagnostics.list()[1].key, "span_unit.depth_fraction_bits");
+  Diagnostics none;
+  SpanUnitParameters{}.check("machine.toml", none);
+  EXPECT_TRUE(none.empty());
+}
+
+}  // namespace
+}  // namespace rastertlm::span_unit
