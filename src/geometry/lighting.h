@@ -58,11 +58,18 @@ T integer_power(T base, int exponent) {
   return result;
 }
 
+// Whoever wants to know which way the equation went is told, for every light in order, whether it lights the point and
+// whether it shines on it.
+struct Unobserved {
+  void operator()(bool /*lit*/, bool /*shines*/) const {}
+};
+
 // Light leaving a point towards the viewer, a channel; 1 is full scale, not clamped. `normal` and `viewer` are unit (or
 // zero: then only ambient light is left), `position` is used by lights at a point.
-template <class T>
+template <class T, class Observer = Unobserved>
 Vector3<T> illumination(const Reflectance& surface, std::span<const LightSource> lights, const LightingRules& rules,
-                        const Vector3<T>& normal, const Vector3<T>& viewer, const Vector3<T>& position) {
+                        const Vector3<T>& normal, const Vector3<T>& viewer, const Vector3<T>& position,
+                        const Observer& observer = {}) {
   Vector3<T> sum;
   for (int c = 0; c < 3; ++c) sum[c] = T(surface.ambient[c]) * T(rules.ambient_light[c]);
   for (const LightSource& light : lights) {
@@ -81,6 +88,7 @@ Vector3<T> illumination(const Reflectance& surface, std::span<const LightSource>
     }
     const bool lit = cosine > T(0.0);
     const bool shines = highlight > T(0.0) && (lit || !rules.specular_gate);
+    observer(lit, shines);
     const T power = shines ? integer_power(highlight, surface.exponent) : T(0.0);
     for (int c = 0; c < 3; ++c) {
       if (lit) sum[c] += T(surface.diffuse[c]) * T(light.diffuse_intensity[c]) * cosine;

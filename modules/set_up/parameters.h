@@ -1,0 +1,49 @@
+// How the set-up processor of a span unit's machine colours triangles: declared once, here.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "modules/set_up/quadratic_solver.h"
+#include "src/base/errors.h"
+#include "src/base/shading_method.h"
+#include "src/parameter/table.h"
+
+namespace rastertlm::set_up {
+
+enum class SetUpArithmetic { double_precision, single_precision, fixed };
+// What a light sees of a point half way between two corners on the screen. linear: normals (and positions, for lights
+// at points) linear on the screen, the viewer infinitely far. perspective: those of the surface at that point, the
+// viewer at the eye.
+enum class Attributes { linear, perspective };
+enum class TestPoints { centroid, points };
+// Corners of children: exact midpoints of their parent's, or midpoints moved to the grid of all vertices.
+enum class ChildCoverage { parent, snapped };
+
+struct SetUpParameters {
+  ShadingMethod method = ShadingMethod::quadratic;
+  Solver solver = Solver::barycentric;
+  SetUpArithmetic arithmetic = SetUpArithmetic::double_precision;
+  std::int64_t fixed_fraction_bits = 40;
+  Attributes attributes = Attributes::linear;
+  bool clamp_knots = true;
+  std::int64_t snap_bits = 4;
+  double test_threshold_levels = 4.0;
+  TestPoints test_points = TestPoints::centroid;
+  std::int64_t test_depth_limit = 4;
+  ChildCoverage child_coverage = ChildCoverage::parent;
+
+  // Paths "set_up.method" ..., "highlight_test.threshold_levels" ..., "subdivision.coverage"
+  void declare(parameter::Table& table);
+  // A fixed format that the program has not, a method that other platforms offer.
+  void check(const std::string& file, Diagnostics& diagnostics) const;
+
+  // Fraction bits of corners: those of the grid, and one for every time that a triangle may be split.
+  int corner_bits() const;
+};
+
+// Fraction bits that FixedNumber is compiled for.
+const std::vector<std::int64_t>& fixed_formats();
+
+}  // namespace rastertlm::set_up

@@ -1,0 +1,81 @@
+// Colours triangles for a span unit (000/001, sections 3 and 4): light at their points, the interpolation's
+// coefficients, and, where the method tests for highlights, children where the quadratic is too far off.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "modules/set_up/parameters.h"
+#include "modules/set_up/point_lighting.h"
+#include "modules/set_up/span_load.h"
+
+namespace rastertlm::set_up {
+
+// What became of a frame's triangles.
+struct ColourCounts {
+  std::uint64_t drawn = 0;  // pieces handed to the span unit, children counted one by one
+  std::uint64_t back_faces = 0;
+  std::uint64_t degenerate = 0;      // no area once on the grid: dropped
+  std::uint64_t flat_low = 0;        // lower than 1/64 pixel: drawn in the mean of its corners' colours
+  std::uint64_t flat_undefined = 0;  // the solver or its numbers had no answer: likewise
+  std::uint64_t splits = 0;          // triangles replaced by four
+  std::uint64_t at_limit = 0;        // still off by more than the threshold, and not split any more
+  std::uint64_t tests = 0;           // light evaluated to test
+  ColourCounts& operator+=(const ColourCounts& other);
+};
+
+struct ColourRequest {
+  std::array<LitPoint, 3> corners;  // counter-clockwise to the eye where it faces it
+  std::array<double, 3> depth{};    // in units of the depth word
+  std::uint32_t object = 0;         // from 1
+  std::uint32_t material = 0;
+  bool two_sided = false;
+};
+
+class TriangleColourer {
+ public:
+  // `lighting` outlives it.
+  TriangleColourer(const SetUpParameters& parameters, PointLighting& lighting);
+
+  // Appends what is to be drawn, nothing where the triangle is dropped.
+  void colour(const ColourRequest& request, std::vector<ColourTriangle>& out);
+
+  const ColourCounts& counts() const { return counts_; }
+  // Operations since the start of the run, light included.
+  geometry::OperationCounts operations() const;
+
+ private:
+  using Levels = PointLighting::Levels;
+  struct Knot {
+    LitPoint point;
+    Levels levels{0.0};
+  };
+  // Corners 1, 2, 3, then the middles of 1-2, 1-3, 2-3.
+  struct Knots {
+    std::array<Knot, 6> knot;
+  };
+
+  Knot knot_of(const LitPoint& point, std::uint32_t material);
+  Knot between(const Knot& a, const Knot& b, std::uint32_t material);
+  void split_or_draw(const Knots& knots, int level, const ColourRequest& request, ColourTriangle triangle,
+                     std::vector<ColourTriangle>& out);
+  bool is_off(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material);
+  bool is_off_at(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material,
+                 const std::array<double, 3>& weights);
+  void solve_linear(const Knots& knots, ColourTriangle& triangle);
+  void solve_quadratic(const Knots& knots, ColourTriangle& triangle);
+  void draw_flat(const Knots& knots, ColourTriangle& triangle) const;
+  bool is_low(const ColourTriangle& triangle) const;
+  geometry::SnappedPoint child_corner(const geometry::SnappedPoint& exact) const;
+
+  SetUpParameters parameters_;
+  PointLighting& lighting_;
+  ColourCounts counts_;
+  geometry::OperationCounts operations_;
+  geometry::OperationCounts solve_cost_;  // three channels
+  geometry::OperationCounts facing_cost_;
+  geometry::OperationCounts test_cost_;  // one point, without its light
+};
+
+}  // namespace rastertlm::set_up
