@@ -1,0 +1,75 @@
+// The frame store: a depth-buffered picture that is drawn into, and one that is shown.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "modules/frame_store/parameters.h"
+#include "modules/frame_store/store_kernels.h"
+#include "modules/span_unit/span_unit.h"
+#include "src/base/vector_variant.h"
+#include "src/frame/frame.h"
+#include "src/frame/scan_line.h"
+
+namespace rastertlm::frame_store {
+
+// fragments_in = fragments_kept + fragments_hidden, always. Kept: won the depth test when they came; later ones may
+// cover them.
+struct StoreCounters {
+  std::uint64_t fragments_in = 0;
+  std::uint64_t fragments_kept = 0;
+  std::uint64_t fragments_hidden = 0;
+};
+
+class FrameStore {
+ public:
+  // Which pictures the store keeps beside levels and depth: none, the triangle's number (for ties), or everything that
+  // observers want to know of a pixel.
+  enum class Keep { nothing, numbers, everything };
+
+  struct Format {
+    std::uint32_t columns = 512;
+    std::uint32_t lines = 512;
+    std::uint32_t farthest = 0xFFFFFF;                // depth of nothing
+    std::array<std::uint8_t, 3> background{0, 0, 0};  // levels of nothing
+    Keep keep = Keep::everything;
+  };
+
+  FrameStore(const FrameStoreParameters& parameters, const Format& format, VectorVariant variant = vector_variant());
+
+  // Of the picture that is drawn: nothing everywhere.
+  void clear();
+  // Strictly smaller depth wins; equal depth keeps the lower object where numbers are kept, else the first. Without a
+  // depth test what comes last stays. Returns how many pixels won.
+  std::uint32_t draw(const span_unit::Span& span, std::uint32_t object, std::uint32_t material);
+  // What was drawn is shown; where there are two buffers, the other one is drawn.
+  void swap();
+
+  // Levels of a line that is shown.
+  void scan_out(std::uint32_t line, frame::RgbLine& out) const;
+  // What is shown, with what was kept.
+  void observe(frame::Frame& out) const;
+
+  const StoreCounters& counters() const { return counters_; }
+
+ private:
+  struct Buffer {
+    std::vector<std::uint32_t> levels;
+    std::vector<std::uint32_t> objects;
+    std::vector<std::uint32_t> materials;
+    std::vector<std::uint32_t> coverage;
+    std::vector<std::uint32_t> depth;  // of the picture that is drawn; kept for observers of the one that is shown
+  };
+  void resize(Buffer& buffer) const;
+
+  FrameStoreParameters parameters_;
+  Format format_;
+  std::uint32_t background_;
+  const StoreKernels& kernels_;
+  std::array<Buffer, 2> buffers_;
+  std::size_t drawn_ = 0;  // the other, or the same where there is one, is shown
+  StoreCounters counters_;
+};
+
+}  // namespace rastertlm::frame_store

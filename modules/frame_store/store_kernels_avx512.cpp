@@ -1,0 +1,2 @@
+#define RASTERTLM_KERNELS store_kernels_avx512
+#include "modules/frame_store/store_kernels_body.inc"
