@@ -4,12 +4,12 @@
 
 namespace rastertlm::host {
 
-void InstructionCycles::declare(parameter::Table& table) {
-  const auto cycles = [&table](const std::string& name, double& target, const std::string& what) {
+void InstructionCycles::declare(parameter::Table& table, const std::string& rate) {
+  const auto cycles = [&](const std::string& name, double& target, const std::string& what) {
     table.real("host.instruction." + name, target, {0.0, 1e6},
                {.unit = "cycles",
                 .description = "Host clock cycles of " + what + '.',
-                .moves = "answer.update_rate_hz",
+                .moves = rate,
                 .only_when = parameter::Condition{"host.cost", {"instructions"}}});
   };
   cycles("add", add, "a floating-point addition or subtraction");
@@ -23,16 +23,49 @@ void InstructionCycles::declare(parameter::Table& table) {
   cycles("operand", operand, "bringing the second operand of an addition, multiplication, division or comparison");
 }
 
-void HostParameters::declare(parameter::Table& table) {
-  table.text("host.preset", preset,
-             {.unit = "",
-              .description = "Processor of the host: sets the host keys that the file does not.",
-              .moves = "answer.update_rate_hz"});
+void ProcessorParameters::declare(parameter::Table& table, const std::string& rate) {
+  declare_model(table, rate);
+  declare_speed(table, rate);
+  declare_bus(table);
+}
+
+void ProcessorParameters::declare_model(parameter::Table& table, const std::string& rate) {
+  table.text(
+      "host.preset", preset,
+      {.unit = "", .description = "Processor of the host: sets the host keys that the file does not.", .moves = rate});
   table.choice("host.cost", cost, {"sustained", "instructions"},
                {.unit = "",
                 .description = "What an operation costs: every floating-point operation at the sustained rate, or each "
                                "by the table of instructions.",
-                .moves = "answer.update_rate_hz"});
+                .moves = rate});
+}
+
+void ProcessorParameters::declare_speed(parameter::Table& table, const std::string& rate) {
+  table.integer(
+      "host.clock_hz", clock_hz, {1000, 100'000'000'000},
+      {.unit = "Hz", .description = "Clock of the host processors.", .moves = "units[].clock_hz, budgets host"});
+  table.real("host.sustained_mflops", sustained_mflops, {0.001, 1e9},
+             {.unit = "Mflop/s",
+              .description = "Sustained floating-point rate, loads and integer work included.",
+              .moves = rate,
+              .only_when = parameter::Condition{"host.cost", {"sustained"}}});
+  instruction.declare(table, rate);
+}
+
+void ProcessorParameters::declare_bus(parameter::Table& table) {
+  table.integer("host.bus_bits", bus_bits, {8, 64},
+                {.unit = "bits",
+                 .description = "Width of the bus to the hardware: a word that is wider takes several.",
+                 .moves = "links[] bus, units[] busy"});
+  table.integer("host.bus_cycles_per_word", bus_cycles_per_word, {1, 10000},
+                {.unit = "cycles",
+                 .description = "Host clock cycles of one word written to the hardware.",
+                 .moves = "links[] bus, units[] busy"});
+}
+
+void HostParameters::declare(parameter::Table& table) {
+  const std::string rate = "answer.update_rate_hz";
+  declare_model(table, rate);
   table.integer("host.computation_units", computation_units, {1, 16384},
                 {.unit = "units",
                  .description = "Computation units, each with an object board of its own.",
@@ -41,29 +74,13 @@ void HostParameters::declare(parameter::Table& table) {
                 {.unit = "processors",
                  .description = "Object processors on a board.",
                  .moves = "modelled.object_processors, decision unit latency"});
-  table.integer(
-      "host.clock_hz", clock_hz, {1000, 100'000'000'000},
-      {.unit = "Hz", .description = "Clock of the host processors.", .moves = "units[].clock_hz, budgets host"});
-  table.real("host.sustained_mflops", sustained_mflops, {0.001, 1e9},
-             {.unit = "Mflop/s",
-              .description = "Sustained floating-point rate, loads and integer work included.",
-              .moves = "answer.update_rate_hz",
-              .only_when = parameter::Condition{"host.cost", {"sustained"}}});
-  instruction.declare(table);
+  declare_speed(table, rate);
   declare_connections(table);
   declare_policies(table);
 }
 
 void HostParameters::declare_connections(parameter::Table& table) {
-  table.integer(
-      "host.bus_bits", bus_bits, {8, 64},
-      {.unit = "bits",
-       .description = "Width of the bus to the object board: a coefficient that is wider takes several words.",
-       .moves = "links[] bus, units[] busy"});
-  table.integer("host.bus_cycles_per_word", bus_cycles_per_word, {1, 10000},
-                {.unit = "cycles",
-                 .description = "Host clock cycles of one word written to a loading RAM.",
-                 .moves = "links[] bus, units[] busy"});
+  declare_bus(table);
   table.integer("host.links", links, {2, 64},
                 {.unit = "links",
                  .description = "Serial links of a host processor that the topology uses: one to whoever feeds it.",

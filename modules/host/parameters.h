@@ -30,19 +30,32 @@ struct InstructionCycles {
   double integer_multiply = 40.0;
   double operand = 5.0;  // of each addition, multiplication, division and comparison: the other stands on the stack
 
-  void declare(parameter::Table& table);
+  // `rate`: what moves with them.
+  void declare(parameter::Table& table, const std::string& rate);
 };
 
-struct HostParameters {
+// One processor and its bus: all of the host where there is but one.
+struct ProcessorParameters {
   std::string preset = "t800_20";
   CostModel cost = CostModel::sustained;
-  std::int64_t computation_units = 8;
-  std::int64_t processors_per_unit = 128;
   std::int64_t clock_hz = 20'000'000;
   double sustained_mflops = 1.5;
   InstructionCycles instruction;
   std::int64_t bus_bits = 32;
   std::int64_t bus_cycles_per_word = 3;
+
+  // Paths "host.preset" ...; `rate` is what moves with its speed.
+  void declare(parameter::Table& table, const std::string& rate);
+
+ protected:
+  void declare_model(parameter::Table& table, const std::string& rate);
+  void declare_speed(parameter::Table& table, const std::string& rate);
+  void declare_bus(parameter::Table& table);
+};
+
+struct HostParameters : ProcessorParameters {
+  std::int64_t computation_units = 8;
+  std::int64_t processors_per_unit = 128;
   std::int64_t links = 4;
   std::int64_t links_available = 4;
   LinkTopology link_topology = LinkTopology::tree;

@@ -191,6 +191,8 @@ class Reading {
 
   void apply_preset_entry(const std::string& path, const Entry& entry, const Site& site, const std::string& name) {
     const Place place = tree_.locate(path);
+    // A preset may serve several machines, and say more than one of them has.
+    if (place.kind == PlaceKind::unknown) return;
     if (place.kind != PlaceKind::parameter) return report(site, path, unknown_key_message(path, place));
     if (!sites_.contains(path)) {
       assign(site, path, *place.parameter, entry.value, {OriginKind::preset, name, 0});

@@ -1,0 +1,101 @@
+#include "modules/frame_store/frame_store_module.h"
+
+#include <algorithm>
+
+#include "modules/stream/simulated_time.h"
+
+namespace rastertlm::frame_store {
+namespace {
+
+// The memory can take no longer than the span unit for any span: nothing else is read through its port, and the
+// accesses that a pixel can ask for, its word read and written, fit a pixel's time.
+bool keeps_up(const FrameStoreParameters& parameters, const MemoryLayout& layout, std::uint64_t pixel_ps) {
+  return parameters.scan_out == ScanOut::separate &&
+         (layout.depth_words + layout.write_words) * parameters.access_ps() <= pixel_ps;
+}
+
+}  // namespace
+
+FrameStoreModule::FrameStoreModule(const sc_core::sc_module_name& name, const FrameStoreParameters& parameters,
+                                   FrameStore& store, const MemoryLayout& layout, const video::Timing& timing,
+                                   std::uint64_t pixel_ps, stream::Link& link)
+    : sc_module(name),
+      in("in"),
+      out("out"),
+      parameters_(parameters),
+      store_(store),
+      layout_(layout),
+      timing_(timing),
+      schedule_(parameters.access_ps(), parameters.scan_out == ScanOut::shared ? std::optional(timing) : std::nullopt,
+                layout.lines, layout.line_accesses()),
+      link_(link),
+      quick_(keeps_up(parameters, layout, pixel_ps)) {
+  rgb_.resize(layout.columns);
+  in.register_b_transport(this, &FrameStoreModule::receive);
+}
+
+void FrameStoreModule::receive(SpanPayload& payload, sc_core::sc_time& delay) {
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  switch (payload.kind) {
+    case SpanPayload::Kind::frame:
+      return begin_frame(delay);
+    case SpanPayload::Kind::span:
+      return draw(payload, delay);
+    case SpanPayload::Kind::end:
+      return end_frame(payload, delay);
+  }
+}
+
+// The frame may be drawn when its buffer is free and has been cleared.
+void FrameStoreModule::begin_frame(sc_core::sc_time& delay) {
+  const std::uint64_t now = stream::picoseconds_now();
+  std::uint64_t free = std::max<std::uint64_t>(now + delay.value(), buffer_free_ps_);
+  if (parameters_.clear) {
+    clear_accesses_ += layout_.clear_accesses();
+    free = schedule_.serve(free, layout_.clear_accesses());
+  }
+  store_.clear();
+  delay = stream::to_time(free - now);
+}
+
+void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay) {
+  const span_unit::Span& span = *payload.span;
+  const std::uint32_t kept = store_.draw(span, payload.object, payload.material);
+  const std::uint64_t accesses = layout_.span_accesses(span.column, span.count, kept, parameters_.depth_test);
+  drawing_accesses_ += accesses;
+  if (quick_) return;
+  const std::uint64_t now = stream::picoseconds_now();
+  delay = stream::to_time(schedule_.serve(now + delay.value(), accesses) - now);
+}
+
+// Two buffers: the other one is free to be drawn when this one is shown. One: at once.
+void FrameStoreModule::end_frame(SpanPayload& payload, const sc_core::sc_time& delay) {
+  const std::uint64_t drawn = stream::picoseconds_now() + delay.value();
+  payload.shown_ps = parameters_.swap == Swap::retrace ? retrace_from(drawn) : drawn;
+  buffer_free_ps_ = parameters_.buffers == 2 ? payload.shown_ps : drawn;
+  store_.swap();
+  scan_out(payload.frame, payload.shown_ps);
+}
+
+std::uint64_t FrameStoreModule::retrace_from(std::uint64_t picoseconds) const {
+  const std::uint64_t clocks = timing_.clock.cycles_at(picoseconds).count();
+  const std::uint64_t frame = timing_.frame.count();
+  return timing_.clock.picoseconds(Cycles((clocks + frame - 1) / frame * frame));
+}
+
+// The lines of the first screen that shows it, with their times.
+void FrameStoreModule::scan_out(std::uint64_t frame, std::uint64_t shown_ps) {
+  const std::uint64_t now = stream::picoseconds_now();
+  payload_.frame = frame;
+  payload_.rgb = &rgb_;
+  payload_.fragments = &fragments_;
+  for (std::size_t line = 0; line < layout_.lines; ++line) {
+    store_.scan_out(static_cast<std::uint32_t>(line), rgb_);
+    payload_.line = line;
+    link_.record(rgb_.columns(), Cycles(rgb_.columns()));
+    sc_core::sc_time delay = stream::to_time(shown_ps + timing_.clock.picoseconds(timing_.first_pixel(line)) - now);
+    out->b_transport(payload_, delay);
+  }
+}
+
+}  // namespace rastertlm::frame_store

@@ -1,0 +1,57 @@
+// The frame store on its board: spans in, the screen's lines out, and a memory that both wait for.
+#pragma once
+
+#include <tlm_utils/simple_initiator_socket.h>
+#include <tlm_utils/simple_target_socket.h>
+
+#include <systemc>
+
+#include "modules/frame_store/frame_store.h"
+#include "modules/frame_store/memory_schedule.h"
+#include "modules/frame_store/span_payload.h"
+#include "modules/stream/line_payload.h"
+#include "modules/stream/link.h"
+#include "modules/video/timing.h"
+
+namespace rastertlm::frame_store {
+
+class FrameStoreModule : public sc_core::sc_module {
+ public:
+  tlm_utils::simple_target_socket<FrameStoreModule, stream::kNoBusWidth, SpanProtocol> in;
+  tlm_utils::simple_initiator_socket<FrameStoreModule, stream::kNoBusWidth, stream::RgbProtocol> out;
+
+  // `pixel_ps`: the span unit's time a pixel; where the memory takes no longer for any span, spans are not scheduled
+  // one by one. `link`: to the screen.
+  FrameStoreModule(const sc_core::sc_module_name& name, const FrameStoreParameters& parameters, FrameStore& store,
+                   const MemoryLayout& layout, const video::Timing& timing, std::uint64_t pixel_ps, stream::Link& link);
+
+  // Memory accesses of spans and clears, and of lines read through the same port, so far.
+  std::uint64_t drawing_accesses() const { return drawing_accesses_; }
+  std::uint64_t clear_accesses() const { return clear_accesses_; }
+  const MemorySchedule& schedule() const { return schedule_; }
+  bool never_waited_for() const { return quick_; }
+
+ private:
+  void receive(SpanPayload& payload, sc_core::sc_time& delay);
+  void begin_frame(sc_core::sc_time& delay);
+  void draw(const SpanPayload& payload, sc_core::sc_time& delay);
+  void end_frame(SpanPayload& payload, const sc_core::sc_time& delay);
+  void scan_out(std::uint64_t frame, std::uint64_t shown_ps);
+  std::uint64_t retrace_from(std::uint64_t picoseconds) const;
+
+  FrameStoreParameters parameters_;
+  FrameStore& store_;
+  MemoryLayout layout_;
+  video::Timing timing_;
+  MemorySchedule schedule_;
+  stream::Link& link_;
+  bool quick_;
+  frame::RgbLine rgb_;
+  frame::FragmentLine fragments_;  // observers of this store look at it as a whole
+  stream::RgbPayload payload_;
+  std::uint64_t buffer_free_ps_ = 0;
+  std::uint64_t drawing_accesses_ = 0;
+  std::uint64_t clear_accesses_ = 0;
+};
+
+}  // namespace rastertlm::frame_store

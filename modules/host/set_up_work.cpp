@@ -1,0 +1,201 @@
+#include "modules/host/set_up_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <utility>
+
+#include "modules/host/corners.h"
+#include "modules/set_up/word_format.h"
+
+namespace rastertlm::host {
+namespace {
+
+using geometry::operation_counts;
+using geometry::OperationCounts;
+
+template <class Body>
+OperationCounts counted(const Body& body) {
+  const OperationCounts before = operation_counts;
+  body();
+  return operation_counts - before;
+}
+
+set_up::WordFormat depth_format(const SetUpFormat& format) {
+  return {static_cast<int>(format.depth_bits), format.viewport.columns, format.viewport.lines,
+          set_up::EdgeForm::snapped};
+}
+
+// What has been counted since: every count.
+template <class Counts>
+Counts since(const Counts& now, const Counts& then);
+template <>
+set_up::ColourCounts since(const set_up::ColourCounts& now, const set_up::ColourCounts& then) {
+  return {now.drawn - then.drawn,
+          now.back_faces - then.back_faces,
+          now.degenerate - then.degenerate,
+          now.flat_low - then.flat_low,
+          now.flat_undefined - then.flat_undefined,
+          now.splits - then.splits,
+          now.at_limit - then.at_limit,
+          now.tests - then.tests};
+}
+template <>
+set_up::LightingCounts since(const set_up::LightingCounts& now, const set_up::LightingCounts& then) {
+  return {now.evaluations - then.evaluations, now.clamped_knots - then.clamped_knots, now.not_finite - then.not_finite};
+}
+
+}  // namespace
+
+geometry::SnapGrids span_grids(const geometry::Viewport& viewport, int fraction_bits) {
+  const geometry::SnapGrid grid{fraction_bits, static_cast<std::int64_t>(viewport.columns),
+                                static_cast<std::int64_t>(viewport.lines)};
+  return {grid, grid};
+}
+
+SetUpWork::SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& parameters, const SetUpFormat& format,
+                     std::vector<geometry::Reflectance> surfaces, const geometry::LightingRules& rules)
+    : scene_(scene),
+      parameters_(parameters),
+      format_(format),
+      linear_(parameters.method == ShadingMethod::gouraud),
+      grid_(geometry::frame_grid(span_grids(format.viewport, static_cast<int>(parameters.snap_bits)), true,
+                                 format.viewport)),
+      near_word_(static_cast<double>(set_up::near_depth(depth_format(format)))),
+      depth_range_(static_cast<double>(set_up::far_depth(depth_format(format))) - near_word_),
+      lighting_(parameters, std::move(surfaces), rules),
+      colourer_(parameters, lighting_),
+      load_costs_(set_up::span_load_costs(linear_)),
+      object_to_clip_(scene.objects.size()) {
+  count_paths();
+}
+
+void SetUpWork::count_paths() {
+  const geometry::FrameGrid grid = grid_;
+  inside_cost_ = counted([&] {
+    glm::dmat4 middle(1.0);
+    middle[3] = {0.0, 0.0, 0.5, 1.0};
+    geometry::ClipTriangle<Number> triangle;
+    for (auto& vertex : triangle)
+      vertex = set_up::transform_vertex<Number>(glm::dvec3(0.0), glm::dvec3(0, 0, 1), middle, glm::dmat3(1.0));
+    set_up::pieces(triangle, grid, format_.viewport);
+  });
+  corner_cost_.multiply = 3;  // two coordinates onto the grid, and depth
+  corner_cost_.add = 1;
+  corner_cost_.convert = 2;
+  position_cost_.multiply = 12 + 3;
+  position_cost_.add = 12;
+  position_cost_.divide = 1;
+}
+
+void SetUpWork::begin_frame(const geometry::Pose& pose, bool viewer_at_eye) {
+  pose_ = pose;
+  std::vector<geometry::LightSource> lights;
+  for (const geometry::Light& light : pose.lights)
+    lights.push_back({light.kind == geometry::LightKind::point, light.vector, light.intensity, light.intensity});
+  lighting_.set_lights(std::move(lights), viewer_at_eye);
+  clip_to_eye_ = glm::inverse(pose.eye_to_clip);
+  waiting_operations_ = {};
+  const OperationCounts matrix = counted([] { matrix_product<Number>(glm::dmat4(1.0), glm::dmat4(1.0)); });
+  for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+    object_to_clip_[i] = matrix_product<double>(pose.eye_to_clip, pose.object_to_eye[i]);
+    waiting_operations_ += matrix;
+  }
+  object_ = triangle_ = 0;
+  number_ = 0;
+  counts_ = {};
+  colour_start_ = colourer_.counts();
+  lighting_start_ = lighting_.counts();
+}
+
+set_up::Pieces<double> SetUpWork::pieces_of(std::size_t object, std::size_t triangle, bool& cut) const {
+  const geometry::Mesh& mesh = *scene_.objects[object].mesh;
+  geometry::ClipTriangle<double> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t corner = mesh.triangles[triangle][i];
+    corners[i] = set_up::transform_vertex<double>(mesh.positions[corner], mesh.normals[corner], object_to_clip_[object],
+                                                  pose_.normal_to_eye[object]);
+  }
+  cut = std::any_of(corners.begin(), corners.end(),
+                    [&](const auto& corner) { return geometry::outcode(corner.position, grid_.volume) != 0; });
+  return set_up::pieces(corners, grid_, format_.viewport);
+}
+
+void SetUpWork::count_pieces() const {
+  const geometry::Mesh& mesh = *scene_.objects[object_].mesh;
+  geometry::ClipTriangle<Number> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t corner = mesh.triangles[triangle_][i];
+    corners[i] = set_up::transform_vertex<Number>(mesh.positions[corner], mesh.normals[corner],
+                                                  object_to_clip_[object_], pose_.normal_to_eye[object_]);
+  }
+  set_up::pieces(corners, grid_, format_.viewport);
+}
+
+bool SetUpWork::next() {
+  while (object_ < scene_.objects.size() && triangle_ >= scene_.objects[object_].mesh->triangles.size()) {
+    ++object_;
+    triangle_ = 0;
+  }
+  if (object_ >= scene_.objects.size()) return false;
+  coloured_.clear();
+  loads_.clear();
+  const OperationCounts colouring = colourer_.operations();
+  triangle_operations_ = waiting_operations_;
+  waiting_operations_ = {};
+  ++number_;
+  ++counts_.triangles;
+  bool cut = false;
+  const set_up::Pieces<double> pieces = pieces_of(object_, triangle_, cut);
+  // What nothing is cut from costs what all such triangles do; others are computed once more, counting.
+  triangle_operations_ += cut ? counted([&] { count_pieces(); }) : inside_cost_;
+  if (pieces.size == 0) ++counts_.outside;
+  if (pieces.size > 1) counts_.pieces += pieces.size - 1;
+  for (const auto& piece : pieces.list()) colour(piece, object_, triangle_);
+  triangle_operations_ += colourer_.operations() - colouring;
+  for (const set_up::ColourTriangle& triangle : coloured_) {
+    const span_unit::TriangleLoad load = set_up::span_load(triangle, format_.span);
+    triangle_operations_ += set_up::cost_of(load, load_costs_);
+    if (load.count == 0) continue;
+    counts_.words += words_of(load);
+    loads_.push_back(load);
+  }
+  counts_.loads += loads_.size();
+  counts_.operations += triangle_operations_;
+  counts_.colour = since(colourer_.counts(), colour_start_);
+  counts_.lighting = since(lighting_.counts(), lighting_start_);
+  ++triangle_;
+  return true;
+}
+
+glm::dvec3 SetUpWork::eye_position(const geometry::ScreenVertex<double>& corner) const {
+  const double x = (corner.x + 0.5) * 2 / static_cast<double>(format_.viewport.columns) - 1;
+  const double y = 1 - (corner.y + 0.5) * 2 / static_cast<double>(format_.viewport.lines);
+  const glm::dvec4 eye = clip_to_eye_ * glm::dvec4(x, y, corner.z, 1.0);
+  return glm::dvec3(eye) / eye.w;
+}
+
+void SetUpWork::colour(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle) {
+  set_up::ColourRequest request;
+  request.object = number_;
+  request.material = scene_.objects[object].mesh->material[triangle];
+  request.two_sided = scene_.objects[object].two_sided;
+  const int finer = parameters_.corner_bits() - static_cast<int>(parameters_.snap_bits);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const geometry::ScreenVertex<double>& corner = piece[i];
+    set_up::LitPoint& point = request.corners[i];
+    const geometry::SnappedPoint at = geometry::snap(corner, static_cast<int>(parameters_.snap_bits));
+    point.at = {at.x * (std::int64_t{1} << finer), at.y * (std::int64_t{1} << finer)};
+    point.inverse_w = corner.inverse_w;
+    point.normal = corner.normal;
+    triangle_operations_ += corner_cost_;
+    if (lighting_.needs_positions()) {
+      point.position = eye_position(corner);
+      triangle_operations_ += position_cost_;
+    }
+    request.depth[i] = std::clamp(corner.z, 0.0, 1.0) * depth_range_ + near_word_;
+  }
+  colourer_.colour(request, coloured_);
+}
+
+}  // namespace rastertlm::host

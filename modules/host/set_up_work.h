@@ -1,0 +1,100 @@
+// The set-up processor's work: from a scene's triangles to a span unit's loads, triangle by triangle, with what each
+// costs. Everything is computed for every frame, because the frame store is drawn anew.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "modules/host/path_counts.h"
+#include "modules/host/resident_scene.h"
+#include "modules/set_up/parameters.h"
+#include "modules/set_up/pieces.h"
+#include "modules/set_up/point_lighting.h"
+#include "modules/set_up/span_load.h"
+#include "modules/set_up/triangle_colourer.h"
+#include "src/geometry/frame_grid.h"
+#include "src/geometry/lighting.h"
+
+namespace rastertlm::host {
+
+struct SetUpFormat {
+  geometry::Viewport viewport;
+  unsigned depth_bits = 24;
+  set_up::SpanFormat span;
+};
+
+// What became of a frame's triangles, and what that took.
+struct SetUpCounts {
+  std::uint64_t triangles = 0;  // of the scene
+  std::uint64_t outside = 0;    // of the view
+  std::uint64_t pieces = 0;     // more than one a triangle, from clipping
+  std::uint64_t loads = 0;
+  std::uint64_t words = 0;
+  set_up::ColourCounts colour;
+  set_up::LightingCounts lighting;
+  geometry::OperationCounts operations;
+};
+
+class SetUpWork {
+ public:
+  SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& parameters, const SetUpFormat& format,
+            std::vector<geometry::Reflectance> surfaces, const geometry::LightingRules& rules);
+
+  // `viewer_at_eye`: the view is perspective, and the viewer not infinitely far.
+  void begin_frame(const geometry::Pose& pose, bool viewer_at_eye);
+  // The next triangle of the frame. False where there is none left.
+  bool next();
+
+  // Of the triangle: what is drawn of it, none where it is not seen.
+  const std::vector<set_up::ColourTriangle>& coloured() const { return coloured_; }
+  const std::vector<span_unit::TriangleLoad>& loads() const { return loads_; }
+  const geometry::OperationCounts& operations() const { return triangle_operations_; }
+  std::uint64_t words_of(const span_unit::TriangleLoad& load) const { return set_up::load_words(load, linear_); }
+
+  // Of the frame so far.
+  const SetUpCounts& counts() const { return counts_; }
+  const geometry::FrameGrid& grid() const { return grid_; }
+
+ private:
+  using Number = geometry::Counted<double>;
+  set_up::Pieces<double> pieces_of(std::size_t object, std::size_t triangle, bool& cut) const;
+  void count_pieces() const;
+  void colour(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle);
+  glm::dvec3 eye_position(const geometry::ScreenVertex<double>& corner) const;
+  void count_paths();
+
+  const ResidentScene& scene_;
+  set_up::SetUpParameters parameters_;
+  SetUpFormat format_;
+  bool linear_;
+  geometry::FrameGrid grid_;
+  double near_word_;
+  double depth_range_;
+  set_up::PointLighting lighting_;
+  set_up::TriangleColourer colourer_;
+  set_up::SpanLoadCosts load_costs_;
+  geometry::OperationCounts inside_cost_;    // a triangle's corners to the screen, none outside the band
+  geometry::OperationCounts corner_cost_;    // to the grid, and the depth word
+  geometry::OperationCounts position_cost_;  // a corner's, where lights need it
+
+  geometry::Pose pose_;
+  glm::dmat4 clip_to_eye_{1.0};
+  std::vector<glm::dmat4> object_to_clip_;
+  std::size_t object_ = 0;
+  std::size_t triangle_ = 0;
+  std::uint32_t number_ = 0;                      // of the next triangle in the scene
+  geometry::OperationCounts waiting_operations_;  // of the frame's matrices, charged to its first triangle
+  geometry::OperationCounts triangle_operations_;
+  set_up::ColourCounts colour_start_;
+  set_up::LightingCounts lighting_start_;
+  std::vector<set_up::ColourTriangle> coloured_;
+  std::vector<span_unit::TriangleLoad> loads_;
+  SetUpCounts counts_;
+};
+
+// The grid that corners are moved to, and the band around the screen that triangles are clipped to: the screen's size
+// on each side, where the span unit steps over what it does not show.
+geometry::SnapGrids span_grids(const geometry::Viewport& viewport, int fraction_bits);
+
+}  // namespace rastertlm::host

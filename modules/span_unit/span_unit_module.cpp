@@ -1,0 +1,120 @@
+#include "modules/span_unit/span_unit_module.h"
+
+#include <algorithm>
+
+#include "modules/stream/simulated_time.h"
+
+namespace rastertlm::span_unit {
+
+using frame_store::SpanPayload;
+
+SpanUnitModule::SpanUnitModule(const sc_core::sc_module_name& name, const SpanUnitParameters& parameters,
+                               SpanUnit& unit, stream::Link& link)
+    : sc_module(name),
+      bus("bus"),
+      out("out"),
+      parameters_(parameters),
+      unit_(unit),
+      clock_(parameters.clock()),
+      link_(link) {
+  bus.register_b_transport(this, &SpanUnitModule::receive);
+}
+
+void SpanUnitModule::receive(LoadPayload& payload, sc_core::sc_time& delay) {
+  payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  payload_.frame = payload.frame;
+  switch (payload.kind) {
+    case LoadPayload::Kind::frame:
+      return begin_frame(payload, delay);
+    case LoadPayload::Kind::triangle:
+      return draw(payload, delay);
+    case LoadPayload::Kind::end:
+      return end_frame(payload, delay);
+  }
+}
+
+// The store answers with the time from which the frame may be drawn.
+void SpanUnitModule::begin_frame(LoadPayload&, sc_core::sc_time& delay) {
+  payload_.kind = SpanPayload::Kind::frame;
+  sc_core::sc_time until = delay;
+  out->b_transport(payload_, until);
+  buffer_free_ = clock_.cycles_at(stream::picoseconds_now() + until.value()).count();
+}
+
+void SpanUnitModule::end_frame(LoadPayload& payload, sc_core::sc_time&) {
+  payload_.kind = SpanPayload::Kind::end;
+  const std::uint64_t now = stream::picoseconds_now();
+  sc_core::sc_time until = stream::to_time(std::max(end_ps(), now) - now);
+  out->b_transport(payload_, until);
+  payload.shown_ps = payload_.shown_ps;
+}
+
+// When a register set can be written: as many triangles may wait as there are shadow sets, and a set that is drawn from
+// is not written.
+std::uint64_t SpanUnitModule::set_free_ps() const {
+  if (parameters_.shadow_sets == 0) return clock_.picoseconds(Cycles(free_));
+  return starts_ps_.size() < static_cast<std::size_t>(parameters_.shadow_sets) ? 0 : starts_ps_.front();
+}
+
+// Its words are written as soon as a set is free; it is drawn when they are there, the last triangle has ended and the
+// buffer is free.
+void SpanUnitModule::draw(LoadPayload& payload, sc_core::sc_time& delay) {
+  const std::uint64_t now = stream::picoseconds_now();
+  const std::uint64_t asked = now + delay.value();
+  const std::uint64_t begin = std::max(asked, set_free_ps());
+  payload.blocked_ps = begin - asked;
+  const std::uint64_t written = begin + payload.write_ps;
+  delay = stream::to_time(written - now);
+  ++loads_received_;
+  const std::uint64_t there = std::max(clock_.cycles_at(written).count(), free_);
+  const std::uint64_t start = std::max(there, buffer_free_);
+  occupancy_.starved += there - free_;
+  occupancy_.blocked += start - there;
+  blocked_by_buffer_ += start - there;
+  starts_ps_.push_back(clock_.picoseconds(Cycles(start)));
+  if (starts_ps_.size() > static_cast<std::size_t>(std::max<std::int64_t>(parameters_.shadow_sets, 1)))
+    starts_ps_.pop_front();
+  draw_from(start, *payload.load);
+}
+
+void SpanUnitModule::draw_from(std::uint64_t cycle, const TriangleLoad& load) {
+  const auto load_cycles = static_cast<std::uint64_t>(parameters_.load_cycles);
+  const auto line_change = static_cast<std::uint64_t>(parameters_.line_change_cycles);
+  const std::uint64_t now = stream::picoseconds_now();
+  payload_.kind = SpanPayload::Kind::span;
+  payload_.object = load.object;
+  payload_.material = load.material;
+  cycle += load_cycles;
+  occupancy_.busy += load_cycles;
+  bool first = true;
+  unit_.draw(load, [&](const Span& span) {
+    if (!first) {
+      cycle += line_change;
+      occupancy_.busy += line_change;
+    }
+    first = false;
+    const std::uint64_t end = cycle + span.cycles;
+    occupancy_.busy += span.cycles;
+    std::uint64_t stored = end;
+    if (span.count > 0) {
+      payload_.span = &span;
+      link_.record(span.count, Cycles(span.count));
+      const std::uint64_t begin_ps = clock_.picoseconds(Cycles(cycle));
+      sc_core::sc_time until = stream::to_time(begin_ps - now);
+      out->b_transport(payload_, until);
+      const std::uint64_t memory_end = now + until.value();
+      if (memory_end > begin_ps) stored = std::max(end, clock_.cycles_at(memory_end).count());
+    }
+    occupancy_.blocked += stored - end;
+    cycle = stored;
+  });
+  free_ = cycle;
+}
+
+stream::Occupancy SpanUnitModule::occupancy() const {
+  stream::Occupancy all = occupancy_;
+  all.cycles = free_;
+  return all;
+}
+
+}  // namespace rastertlm::span_unit

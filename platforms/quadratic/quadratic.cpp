@@ -1,0 +1,168 @@
+#include "platforms/quadratic/quadratic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "modules/stream/failure.h"
+#include "modules/stream/simulated_time.h"
+#include "src/base/fixed_point.h"
+
+namespace rastertlm::quadratic {
+namespace {
+
+host::HostParameters host_of(const Machine& machine) {
+  host::HostParameters parameters;
+  static_cast<host::ProcessorParameters&>(parameters) = machine.host;
+  return parameters;
+}
+
+host::ResidentScene resident_scene(const Machine& machine, const scene::Scene& scene) {
+  host::ResidentScene resident;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    resident.objects.push_back({&scene.objects[i].mesh, scene.objects[i].two_sided, scene::object_moves(scene, i)});
+  resident.camera_moves = scene::camera_moves(scene);
+  resident.pose = [&scene, viewport = machine.viewport()](std::int64_t frame) {
+    return scene::pose(scene, frame, viewport.columns, viewport.lines);
+  };
+  return resident;
+}
+
+std::vector<geometry::Reflectance> surfaces_of(const scene::Scene& scene) {
+  std::vector<geometry::Reflectance> surfaces;
+  for (const scene::Material& m : scene.materials)
+    surfaces.push_back({m.ambient * m.colour, m.diffuse * m.colour, glm::dvec3(m.specular), m.exponent});
+  return surfaces;
+}
+
+frame_store::FrameStore::Format store_format(const Machine& machine, const scene::Scene& scene, bool observe) {
+  frame_store::FrameStore::Format format;
+  format.columns = static_cast<std::uint32_t>(machine.video.columns);
+  format.lines = static_cast<std::uint32_t>(machine.video.lines);
+  format.farthest = static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(machine.span_unit.depth_bits)));
+  for (std::size_t c = 0; c < 3; ++c)
+    format.background[c] = static_cast<std::uint8_t>(scene.background[static_cast<int>(c)]);
+  format.keep = observe ? frame_store::FrameStore::Keep::everything : frame_store::FrameStore::Keep::nothing;
+  return format;
+}
+
+}  // namespace
+
+Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Options& options, Sink sink)
+    : machine_(machine),
+      scene_(scene),
+      options_(options),
+      sink_(std::move(sink)),
+      timing_(video::timing(machine.video)),
+      cost_(host_of(machine), machine.span_unit.word_bits),
+      resident_(resident_scene(machine, scene)),
+      unit_(machine.span_unit, static_cast<std::uint32_t>(machine.video.columns),
+            static_cast<std::uint32_t>(machine.video.lines)),
+      store_(machine.frame_store, store_format(machine, scene, options.observe)) {
+  check_scene();
+  const geometry::LightingRules rules{
+      scene.model == scene::LightingModel::phong ? geometry::Model::phong : geometry::Model::blinn, scene.specular_gate,
+      scene.ambient_light};
+  work_ =
+      std::make_unique<host::SetUpWork>(resident_, machine.set_up, machine.set_up_format(), surfaces_of(scene), rules);
+  const unsigned pixel_bits = static_cast<unsigned>(machine.span_unit.depth_bits) + frame_store::kColourBits;
+  const Clock bus_clock =
+      Clock::slower("bus words", cost_.clock(), static_cast<std::uint64_t>(machine.host.bus_cycles_per_word));
+  stream::Link& bus = links_.emplace_back("bus", static_cast<unsigned>(machine.host.bus_bits), bus_clock);
+  stream::Link& pixels = links_.emplace_back("span unit to frame store", pixel_bits, machine.span_unit.clock());
+  stream::Link& screen = links_.emplace_back("frame store to video", frame_store::kColourBits, timing_.clock);
+  set_up_processor_ = std::make_unique<host::SetUpProcessorModule>(
+      "set_up_processor", *work_, cost_,
+      host::SetUpProcessorModule::Timeline{resident_.pose,
+                                           scene.camera.projection == scene::ProjectionKind::perspective,
+                                           options.frames, [this](const auto& frame) { note_drawn(frame); }},
+      bus);
+  span_unit_ = std::make_unique<span_unit::SpanUnitModule>("span_unit", machine.span_unit, unit_, pixels);
+  const std::uint64_t pixel_ps =
+      machine.span_unit.clock().picoseconds(Cycles(static_cast<std::uint64_t>(machine.span_unit.pixel_cycles)));
+  const auto units = static_cast<std::uint64_t>(machine.span_unit.units);
+  frame_store_ = std::make_unique<frame_store::FrameStoreModule>("frame_store", machine.frame_store, store_,
+                                                                 machine.layout(), timing_, pixel_ps / units, screen);
+  video_output_ = std::make_unique<video::VideoOutputModule>(
+      "video_output",
+      video::FrameAssembly::Format{static_cast<std::size_t>(machine.video.columns),
+                                   static_cast<std::size_t>(machine.video.lines), 1, 12, 0, false},
+      [this](std::uint64_t, std::size_t, const frame::Frame& pixels_shown, std::uint64_t last_line_ps) {
+        pixels_ = pixels_shown;
+        shown_.last_pixel_ps =
+            last_line_ps + timing_.clock.picoseconds(Cycles(static_cast<std::uint64_t>(machine_.video.columns) - 1));
+      });
+  set_up_processor_->bus.bind(span_unit_->bus);
+  span_unit_->out.bind(frame_store_->in);
+  frame_store_->out.bind(video_output_->in);
+}
+
+void Quadratic::check_scene() const {
+  Diagnostics diagnostics;
+  for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      if (!std::isfinite(scene_.materials[i].colour[c]))
+        diagnostics.add({"", 0, fmt::format("material[{}].colour", i), "is not finite"});
+  diagnostics.throw_if_any();
+}
+
+// Called when a frame is in the store and its lines are on their way.
+void Quadratic::note_drawn(const host::SetUpFrame& frame) {
+  shown_.set_up = frame;
+  shown_.drawn_ps = span_unit_->end_ps();
+  shown_.first_pixel_ps = frame.shown_ps + timing_.clock.picoseconds(timing_.first_pixel(0));
+  const span_unit::SpanCounters& now = unit_.counters();
+  shown_.drawn = {now.triangles - drawn_before_.triangles,     now.lines - drawn_before_.lines,
+                  now.empty_lines - drawn_before_.empty_lines, now.carries - drawn_before_.carries,
+                  now.pixels - drawn_before_.pixels,           now.off_screen - drawn_before_.off_screen};
+  drawn_before_ = now;
+  if (options_.observe) store_.observe(pixels_);
+  waiting_ = true;
+}
+
+void Quadratic::run() {
+  sc_core::sc_report_handler::set_actions("/OSCI/SystemC", sc_core::SC_INFO,
+                                          sc_core::SC_DO_NOTHING);  // that it was stopped is no news
+  // The set-up processor pauses after every frame, so that it is handed on outside the simulation: its processes have
+  // small stacks, and what the sink throws is the caller's.
+  while (!set_up_processor_->finished()) {
+    sc_core::sc_start();
+    stream::rethrow_failure();
+    if (!waiting_) continue;
+    waiting_ = false;
+    frames_.push_back(shown_);
+    if (sink_) sink_(shown_, pixels_);
+  }
+  check_identities();
+}
+
+double Quadratic::frames_per_second() const {
+  constexpr double kPicosecond = 1e-12;
+  if (frames_.size() < 2) return 0.0;
+  const std::uint64_t passed = frames_.back().set_up.shown_ps - frames_.front().set_up.shown_ps;
+  return static_cast<double>(frames_.size() - 1) / (static_cast<double>(passed) * kPicosecond);
+}
+
+void Quadratic::check_identities() const {
+  const auto require = [](const char* unit, std::uint64_t a, std::uint64_t b, const char* what) {
+    if (a != b) throw ModelError(unit, 0, fmt::format("{}: {} is not {}", what, a, b));
+  };
+  set_up_processor_->occupancy().check("set-up processor");
+  span_unit_->occupancy().check("span unit");
+  const frame_store::StoreCounters& store = store_.counters();
+  require("frame store", store.fragments_in, store.fragments_kept + store.fragments_hidden,
+          "fragments in = kept + hidden");
+  require("frame store", store.fragments_in, unit_.counters().pixels, "fragments in = pixels drawn");
+  std::uint64_t loads = 0;
+  std::uint64_t words = 0;
+  for (const ShownFrame& frame : frames_) {
+    loads += frame.set_up.counts.loads;
+    words += frame.set_up.counts.words;
+  }
+  require("span unit", loads, span_unit_->loads_received(), "loads sent = loads received");
+  require("set-up processor", words, set_up_processor_->words_sent(), "words computed = words sent");
+}
+
+}  // namespace rastertlm::quadratic

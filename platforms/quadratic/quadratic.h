@@ -1,0 +1,89 @@
+// The quadratic-shading machine put together (000/001; its figure 6 is the span unit). Assembly only: cores compute,
+// modules decide when, and this says who is connected to whom.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <systemc>
+#include <vector>
+
+#include "modules/frame_store/frame_store_module.h"
+#include "modules/host/set_up_processor_module.h"
+#include "modules/span_unit/span_unit_module.h"
+#include "modules/video/video_output_module.h"
+#include "platforms/quadratic/machine.h"
+#include "src/scene/scene.h"
+
+namespace rastertlm::quadratic {
+
+struct Options {
+  std::uint64_t frames = 1;  // to show
+  bool observe = true;       // frames have all their planes; without, their levels alone
+};
+
+// A frame that is shown, and how it came to be.
+struct ShownFrame {
+  host::SetUpFrame set_up;
+  std::uint64_t first_pixel_ps = 0;  // since the start of the simulation
+  std::uint64_t last_pixel_ps = 0;
+  std::uint64_t drawn_ps = 0;     // when its last pixel was in the store
+  span_unit::SpanCounters drawn;  // of this frame
+};
+
+class Quadratic {
+ public:
+  // Called for every frame, in order.
+  using Sink = std::function<void(const ShownFrame&, const frame::Frame&)>;
+
+  // Machine and scene outlive it. Throws InputError where the machine cannot take the scene. One a process.
+  Quadratic(const Machine& machine, const scene::Scene& scene, const Options& options, Sink sink);
+
+  // Simulates until the last frame has been shown, and checks the identities of conservation (ModelError).
+  void run();
+
+  const Machine& machine() const { return machine_; }
+  const video::Timing& timing() const { return timing_; }
+  const host::HostCost& cost() const { return cost_; }
+  const host::SetUpWork& work() const { return *work_; }
+  const host::SetUpProcessorModule& set_up_processor() const { return *set_up_processor_; }
+  const span_unit::SpanUnit& unit() const { return unit_; }
+  const span_unit::SpanUnitModule& span_unit() const { return *span_unit_; }
+  const frame_store::FrameStore& store() const { return store_; }
+  const frame_store::FrameStoreModule& frame_store() const { return *frame_store_; }
+  const std::deque<stream::Link>& links() const { return links_; }
+  std::vector<ShownFrame> const& frames() const { return frames_; }
+  // Frames completed a second: of the frames after the first, where there are three or more; else of what bounds them.
+  double frames_per_second() const;
+
+ private:
+  void check_scene() const;
+  void note_drawn(const host::SetUpFrame& frame);
+  void check_identities() const;
+
+  const Machine& machine_;
+  const scene::Scene& scene_;
+  Options options_;
+  Sink sink_;
+  video::Timing timing_;
+  host::HostCost cost_;
+  host::ResidentScene resident_;
+  std::unique_ptr<host::SetUpWork> work_;
+  span_unit::SpanUnit unit_;
+  frame_store::FrameStore store_;
+  std::deque<stream::Link> links_;
+
+  std::unique_ptr<host::SetUpProcessorModule> set_up_processor_;
+  std::unique_ptr<span_unit::SpanUnitModule> span_unit_;
+  std::unique_ptr<frame_store::FrameStoreModule> frame_store_;
+  std::unique_ptr<video::VideoOutputModule> video_output_;
+
+  ShownFrame shown_;
+  frame::Frame pixels_;
+  span_unit::SpanCounters drawn_before_;
+  bool waiting_ = false;  // shown_ has not been handed on
+  std::vector<ShownFrame> frames_;
+};
+
+}  // namespace rastertlm::quadratic
