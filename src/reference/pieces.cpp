@@ -80,7 +80,8 @@ class Assembler {
       piece.corners[i] = geometry::to_screen(corners[i], viewport_);
       if (options_.kind == Reference::snapped)
         piece.snapped[i] = geometry::snap(piece.corners[i], grid_.grid.fraction_bits);
-      if (options_.kind == Reference::true_model) piece.eye_positions[i] = eye_position(corners[i]);
+      if (options_.kind == Reference::true_model || options_.lights_at_points)
+        piece.eye_positions[i] = eye_position(corners[i]);
     }
     const int area = area_sign(piece);
     if (area == 0) return false;

@@ -17,7 +17,7 @@ struct Piece {
   std::uint16_t material = 0;                               // an index of Scene::materials
   std::array<geometry::ScreenVertex<double>, 3> corners{};  // normals towards the viewer's side, not of unit length
   std::array<geometry::SnappedPoint, 3> snapped{};          // Reference::snapped only
-  std::array<glm::dvec3, 3> eye_positions{};                // Reference::true_model only
+  std::array<glm::dvec3, 3> eye_positions{};                // Reference::true_model, or with lights at points
 };
 
 struct Pieces {

@@ -79,7 +79,8 @@ class Shader {
       surfaces_.push_back({m.ambient * m.colour, m.diffuse * m.colour, glm::dvec3(m.specular), m.exponent});
     for (const scene::Light& light : pose.lights) {
       const bool at_point = light.kind == scene::LightKind::point;
-      if (at_point && kind_ != Reference::true_model)
+      any_at_point_ = any_at_point_ || at_point;
+      if (at_point && kind_ != Reference::true_model && !options.lights_at_points)
         throw InputError(Diagnostic{
             "", 0, "light.type", "a light at a point is not in the machine's model; only the true reference has it"});
       const double mean = (light.intensity.x + light.intensity.y + light.intensity.z) / 3.0;
@@ -93,8 +94,8 @@ class Shader {
     glm::dvec3 viewer(0.0, 0.0, 1.0);
     glm::dvec3 position(0.0);
     std::array<double, 2> weights = on_screen;
-    if (kind_ == Reference::true_model) {
-      weights = on_surface(piece, on_screen);
+    if (kind_ == Reference::true_model) weights = on_surface(piece, on_screen);
+    if (kind_ == Reference::true_model || any_at_point_) {
       position = interpolated(piece.eye_positions[0], piece.eye_positions[1], piece.eye_positions[2], weights);
       if (viewer_at_eye_) viewer = geometry::normalised<double>(-position);
     }
@@ -119,6 +120,7 @@ class Shader {
   Reference kind_;
   geometry::LightingRules rules_;
   bool viewer_at_eye_ = false;
+  bool any_at_point_ = false;
   std::vector<Reflectance> surfaces_;
   std::vector<LightSource> lights_;
 };

@@ -27,7 +27,8 @@ struct RenderOptions {
   std::size_t lines = 0;
   geometry::SnapGrids
       grids;  // of the machine: they choose the volume that triangles are clipped to, and the snapped vertices
-  bool specular_mean = false;  // one specular table a light: highlights take the mean of the light's channels
+  bool lights_at_points = false;  // the machine's model has them, positions linear on the screen as normals are
+  bool specular_mean = false;     // one specular table a light: highlights take the mean of the light's channels
 };
 
 // The frame at `pose`, which was made for this screen's aspect ratio.
@@ -40,7 +41,7 @@ struct RenderOptions {
 // - Levels are 255 times the light that leaves the surface, clamped to 0..255; where nothing is seen, the scene's
 // background.
 // - ExactFrame::coverage counts the triangles that cover a pixel, hidden ones too.
-// Throws InputError for a light at a point where the model has none (ideal, snapped).
+// Throws InputError for a light at a point where the model has none (ideal, snapped, without lights_at_points).
 frame::ExactFrame render(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options);
 
 }  // namespace rastertlm::reference

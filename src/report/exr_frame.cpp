@@ -29,7 +29,8 @@ void write_exr_frame(const std::string& path, const frame::Frame& shown, const f
   std::vector<Channel> channels;
   add_interleaved(channels, {"R", "G", "B"}, colour);
   channels.push_back({"Z", ChannelType::f32, depth.data(), 0});
-  add_interleaved(channels, {"N.X", "N.Y", "N.Z"}, shown.normal);
+  // A machine that interpolates colours has no normals at pixels.
+  if (!shown.normal.empty()) add_interleaved(channels, {"N.X", "N.Y", "N.Z"}, shown.normal);
   channels.push_back({"object.id", ChannelType::u32, shown.object.data(), 0});
   channels.push_back({"material.id", ChannelType::u32, shown.material.data(), 0});
   channels.push_back({"coverage.count", ChannelType::u32, shown.coverage.data(), 0});

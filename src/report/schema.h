@@ -39,8 +39,27 @@ inline constexpr auto kCount = parameter::StatisticKind::count;
 inline constexpr auto kFormula = parameter::StatisticKind::formula;
 inline constexpr auto kSetting = parameter::StatisticKind::setting;
 
+// Of which kinds of machine a section speaks: of both where only described.
+struct Kinds {
+  bool boards = true;  // object processors
+  bool spans = true;   // a span unit
+  explicit Kinds(const std::string& platform) : boards(platform != "quadratic"), spans(platform != "imogene") {}
+};
+
 template <class Visitor>
-void visit(Visitor& v, run::Answer& a) {
+void visit_initial_load(Visitor& v, run::Answer& a) {
+  v.value("initial_load_frames", {"frames", kFormula, "video frames before the first picture"}, a.initial_load_frames);
+  v.value("initial_load_us", {"us", kCount, "until the last computation unit has finished the first frame"},
+          a.initial_load_us);
+  v.value("initial_load_bytes",
+          {"bytes", kCount, "of meshes that cross the links once, each to the unit that keeps it"},
+          a.initial_load_bytes);
+  v.value("torn_frames", {"frames", kCount, "displayed frames with words or light of two animation frames"},
+          a.torn_frames);
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::Answer& a, const Kinds& kinds) {
   v.value("frame_rate_hz", {"Hz", kFormula, "new pictures a second: the update rate, for the object machine"},
           a.frame_rate_hz);
   v.value("display_rate_hz", {"Hz", kFormula, "frames scanned out a second: pixel clock / clocks of a frame"},
@@ -66,14 +85,7 @@ void visit(Visitor& v, run::Answer& a) {
           {"us", kFormula, "latency_frames frames, and on to the first pixel: retrace, blanking, stages of the pixel"},
           a.latency_first_pixel_us);
   v.value("latency_last_pixel_us", {"us", kFormula, "the same to the last pixel"}, a.latency_last_pixel_us);
-  v.value("initial_load_frames", {"frames", kFormula, "video frames before the first picture"}, a.initial_load_frames);
-  v.value("initial_load_us", {"us", kCount, "until the last computation unit has finished the first frame"},
-          a.initial_load_us);
-  v.value("initial_load_bytes",
-          {"bytes", kCount, "of meshes that cross the links once, each to the unit that keeps it"},
-          a.initial_load_bytes);
-  v.value("torn_frames", {"frames", kCount, "displayed frames with words or light of two animation frames"},
-          a.torn_frames);
+  if (kinds.boards) visit_initial_load(v, a);
   v.value("display_works", {"", kFormula, "whether every unit behind the host keeps its deadlines"}, a.display_works);
   v.texts("limits", {"", kFormula, "one sentence for everything that keeps the machine from its rate"}, a.limits);
 }
@@ -211,7 +223,39 @@ inline reference::ErrorFigures* find_error(run::FrameFigures& frame, const std::
 }
 
 template <class Visitor>
-void visit(Visitor& v, run::FrameFigures& f) {
+void visit_span(Visitor& v, run::SpanFrameFigures& s) {
+  v.value("drawn_pieces", {"triangles", kCount, "handed to the span unit, children of split ones counted one by one"},
+          s.drawn_pieces);
+  v.value("splits", {"triangles", kCount, "that the highlight test replaced by four"}, s.splits);
+  v.value("at_depth_limit", {"triangles", kCount, "not split any more, and off by more than the threshold"},
+          s.at_depth_limit);
+  v.value("flat", {"triangles", kCount, "drawn in one colour: too low, or the solver had no answer"}, s.flat);
+  v.value("lighting_evaluations", {"evaluations", kCount, "of the lighting equation"}, s.lighting_evaluations);
+  v.value("clamped_knots", {"values", kCount, "channels of points beyond the levels"}, s.clamped_knots);
+  v.value("not_finite", {"values", kCount, "channels of points that were no numbers: black"}, s.not_finite);
+  v.value("span_pixels", {"pixels", kCount, "that the span unit drew on the screen"}, s.span_pixels);
+  v.value("off_screen_pixels", {"pixels", kCount, "that it stepped over"}, s.off_screen_pixels);
+  v.value("set_up_us", {"us", kFormula, "from the frame's start to its last word, waits included"}, s.set_up_us);
+  v.value("shown_us", {"us", kFormula, "from the frame's start to when it is shown"}, s.shown_us);
+}
+
+template <class Visitor>
+void visit_board(Visitor& v, run::FrameFigures& f) {
+  v.value("words_ahead",
+          {"words", kCount, "in use that belong to an update which the computation units have not finished"},
+          f.words_ahead);
+  v.value("light_apart", {"", kCount, "whether objects of one animation frame are shown in the light of another"},
+          f.light_apart);
+  v.derived("torn", {"", kFormula, "words_ahead > 0 or light_apart"}, f.torn());
+  v.value("late_table_lines", {"lines", kCount, "shaded from half-written tables"}, f.late_table_lines);
+  v.value("line_slack_cycles", {"pixel clocks", kFormula, "left at its worst line"}, f.line_slack_cycles);
+  v.value("retrace_slack_cycles", {"pixel clocks", kFormula, "left of its vertical retrace"}, f.retrace_slack_cycles);
+  v.metric("host_slack_us", {"us", kFormula, "from the last host's last word to its retrace; null: nothing new"},
+           f.host_slack_us);
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::FrameFigures& f, const Kinds& kinds) {
   v.value("frame", {"", kCount, "the displayed frame, from 0"}, f.frame);
   v.derived("file", {"", kFormula, "what the display shows"}, picture_name(f.frame));
   v.derived("channels_file", {"", kFormula, "everything that is known of each pixel"}, channels_name(f.frame));
@@ -238,17 +282,8 @@ void visit(Visitor& v, run::FrameFigures& f) {
   v.value("host_flops", {"flop", kCount, "of all computation units; 0 where nothing was computed for this frame"},
           f.host_flops);
   v.value("words_sent", {"words", kCount, "written to the object boards for this frame"}, f.words_sent);
-  v.value("words_ahead",
-          {"words", kCount, "in use that belong to an update which the computation units have not finished"},
-          f.words_ahead);
-  v.value("light_apart", {"", kCount, "whether objects of one animation frame are shown in the light of another"},
-          f.light_apart);
-  v.derived("torn", {"", kFormula, "words_ahead > 0 or light_apart"}, f.torn());
-  v.value("late_table_lines", {"lines", kCount, "shaded from half-written tables"}, f.late_table_lines);
-  v.value("line_slack_cycles", {"pixel clocks", kFormula, "left at its worst line"}, f.line_slack_cycles);
-  v.value("retrace_slack_cycles", {"pixel clocks", kFormula, "left of its vertical retrace"}, f.retrace_slack_cycles);
-  v.metric("host_slack_us", {"us", kFormula, "from the last host's last word to its retrace; null: nothing new"},
-           f.host_slack_us);
+  if (kinds.boards) visit_board(v, f);
+  if (kinds.spans) visit_span(v, f.span);
   v.derived_object("error", "the figures of errors[] against the reference \"ideal\"", find_error(f, "ideal"),
                    [](Visitor& e, reference::ErrorFigures& figures) { visit(e, figures); });
   v.list("errors", "distance from each exact picture", f.errors,
@@ -256,7 +291,7 @@ void visit(Visitor& v, run::FrameFigures& f) {
 }
 
 template <class Visitor>
-void visit(Visitor& v, run::Modelled& m) {
+void visit_boards(Visitor& v, run::Modelled& m) {
   v.object("object_processors", "of the machine", [&](Visitor& o) {
     o.value("available", {"processors", kSetting, "that the machine has"}, m.processors_available);
     o.value("used", {"processors", kCount, "that hold an object"}, m.processors_used);
@@ -274,12 +309,17 @@ void visit(Visitor& v, run::Modelled& m) {
         m.coefficients_total);
     o.value("sent", {"words", kCount, "that were written"}, m.coefficients_sent);
   });
+}
+
+template <class Visitor>
+void visit(Visitor& v, run::Modelled& m, const Kinds& kinds) {
+  if (kinds.boards) visit_boards(v, m);
   v.object("objects", "triangles of the scene", [&](Visitor& o) {
     o.value("made", {"triangles", kCount, "of the scene"}, m.objects_made);
     o.value("degenerate", {"triangles", kCount, "of zero area as made"}, m.objects_degenerate);
     o.value("dropped", {"triangles", kCount, "that found no processor"}, m.objects_dropped);
   });
-  v.object("fragments", "pixels of objects, in the decision unit", [&](Visitor& o) {
+  v.object("fragments", "pixels of objects, where the nearest is found", [&](Visitor& o) {
     o.value("in", {"fragments", kCount, "kept + hidden"}, m.fragments_in);
     o.value("kept", {"fragments", kCount, "nearest at their pixel"}, m.fragments_kept);
     o.value("hidden", {"fragments", kCount, "behind another"}, m.fragments_hidden);
@@ -305,6 +345,7 @@ void visit(Visitor& v, Contents& contents) {
   run::Result& r = contents.result;
   v.derived("schema", {"", kSetting, "version of these keys"}, kSchema);
   v.value("platform", {"", kSetting, "the kind of machine"}, r.platform);
+  const Kinds kinds(r.platform);
   v.value("config_digest", {"", kFormula, "SHA-256 of the resolved machine, without origins"}, r.config_digest);
   v.value("scene_digest", {"", kFormula, "SHA-256 of the scene and of its mesh files"}, r.scene_digest);
   v.value("frames", {"frames", kSetting, "displayed frames that were simulated"}, r.frame_count);
@@ -314,15 +355,17 @@ void visit(Visitor& v, Contents& contents) {
     o.value("obtained_refresh_hz", {"Hz", kFormula, "display rate in whole pixel clocks"}, r.obtained_refresh_hz);
     o.value("interlaced", {"", kSetting, "whether a frame is two fields, and rates are of fields"}, r.interlaced);
   });
-  v.object("answer", "does the machine show the scene at its rate", [&](Visitor& o) { visit(o, r.answer); });
+  v.object("answer", "does the machine show the scene at its rate", [&](Visitor& o) { visit(o, r.answer, kinds); });
   visit_list(v, "units", "where the cycles of each unit go, over the whole run", r.units);
   visit_list(v, "budgets", "what is needed beside what there is", r.budgets);
-  v.object("deadlines", "what is left of the display's deadlines", [&](Visitor& o) { visit(o, r.deadlines); });
+  if (kinds.boards)
+    v.object("deadlines", "what is left of the display's deadlines", [&](Visitor& o) { visit(o, r.deadlines); });
   visit_list(v, "links", "bandwidth", r.links);
   visit_list(v, "memories", "bits", r.memories);
   visit_list(v, "logic", "adders, comparators, pins", r.logic);
-  visit_list(v, "images", "the displayed frames", r.frames);
-  v.object("modelled", "what was simulated", [&](Visitor& o) { visit(o, r.modelled); });
+  v.list("images", "the displayed frames", r.frames,
+         [&](Visitor& inner, run::FrameFigures& frame) { visit(inner, frame, kinds); });
+  v.object("modelled", "what was simulated", [&](Visitor& o) { visit(o, r.modelled, kinds); });
   v.texts("warnings", {"", kFormula, "what may not be meant"}, r.warnings);
   v.optional_object("host", "of the simulation itself; only with --host-figures", contents.host_figures,
                     [&](Visitor& o) { visit(o, r.host); });

@@ -26,6 +26,8 @@ std::string percent_of(std::uint64_t part, std::uint64_t whole) {
   return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
+bool has_boards(const run::Result& result) { return result.platform == "imogene"; }
+
 std::string limits_section(const run::Result& result) {
   const run::Answer& a = result.answer;
   std::string text = heading("What is in the way of the rate");
@@ -41,10 +43,11 @@ std::string limits_section(const run::Result& result) {
       "{} us to its last.",
       counted(a.latency_frames, "frame", "frames"), quantity(a.latency_first_pixel_us),
       quantity(a.latency_last_pixel_us)));
-  text += sentence_line(fmt::format(
-      "First picture after {} of loading: {} us, {} bytes of meshes, which stay with the hosts. What follows is "
-      "without it.",
-      counted(a.initial_load_frames, "frame", "frames"), quantity(a.initial_load_us), grouped(a.initial_load_bytes)));
+  if (has_boards(result))
+    text += sentence_line(fmt::format(
+        "First picture after {} of loading: {} us, {} bytes of meshes, which stay with the hosts. What follows is "
+        "without it.",
+        counted(a.initial_load_frames, "frame", "frames"), quantity(a.initial_load_us), grouped(a.initial_load_bytes)));
   if (a.torn_frames > 0)
     text += sentence_line(
         fmt::format("{} of {} displayed frames are torn: they have words or light of two animation frames.",
@@ -190,14 +193,23 @@ std::string pictures_section(const run::Result& result) {
   add("face away", f.back_faces, "triangles");
   add("of zero area", f.degenerate, "triangles");
   add("outside the view", f.outside, "triangles");
-  add("more processors for clipped pieces", f.pieces, "processors");
-  add("pieces dropped", f.pieces_dropped, "pieces");
+  if (has_boards(result)) {
+    add("more processors for clipped pieces", f.pieces, "processors");
+    add("pieces dropped", f.pieces_dropped, "pieces");
+  } else {
+    add("more pieces by clipping", f.pieces, "triangles");
+    add("handed to the span unit, children included", f.span.drawn_pieces, "triangles");
+    add("split by the highlight test", f.span.splits, "triangles");
+    add("in one colour", f.span.flat, "triangles");
+    add("light evaluated", f.span.lighting_evaluations, "times");
+  }
   add("fraction bits of snapped vertices", static_cast<std::uint64_t>(std::max(f.snap_fraction_bits, 0)), "bits");
   add("covered", f.covered_pixels, "pixels");
   add("fragments, hidden ones included", f.fragments, "pixels");
   add("host operations", f.host_flops, "flop");
-  add("words sent to the boards", f.words_sent, "words");
-  add("shaded from half-written tables", f.late_table_lines, "lines");
+  add("words sent to the hardware", f.words_sent, "words");
+  if (has_boards(result)) add("shaded from half-written tables", f.late_table_lines, "lines");
+  if (!has_boards(result)) add("stepped over off the screen", f.span.off_screen_pixels, "pixels");
   std::string text = heading("What the picture is made of") + table.text();
   if (result.frames.size() > 1) text += sentence_line(fmt::format("Every frame is a row of {}.", kFramesCsv));
   if (result.interlaced)
@@ -206,9 +218,8 @@ std::string pictures_section(const run::Result& result) {
   return text;
 }
 
-std::string modelled_section(const run::Result& result) {
-  const run::Modelled& m = result.modelled;
-  std::string text = heading("What was modelled");
+std::string boards_modelled(const run::Modelled& m) {
+  std::string text;
   text += sentence_line(fmt::format("Object processors: {} in the machine, {} hold an object, {} simulated.",
                                     grouped(m.processors_available), grouped(m.processors_used),
                                     grouped(m.processors_instantiated)));
@@ -216,11 +227,19 @@ std::string modelled_section(const run::Result& result) {
                                     grouped(m.lines_total)));
   text += sentence_line(fmt::format("Coefficient words: {} sent of {} that there are.", grouped(m.coefficients_sent),
                                     grouped(m.coefficients_total)));
-  text +=
-      sentence_line(fmt::format("Triangles: {} made, {} of them of zero area, {} without a processor.",
-                                grouped(m.objects_made), grouped(m.objects_degenerate), grouped(m.objects_dropped)));
-  text += sentence_line(fmt::format("Fragments: {} into the decision unit = {} kept + {} hidden.",
-                                    grouped(m.fragments_in), grouped(m.fragments_kept), grouped(m.fragments_hidden)));
+  return text;
+}
+
+std::string modelled_section(const run::Result& result) {
+  const run::Modelled& m = result.modelled;
+  std::string text = heading("What was modelled");
+  if (has_boards(result)) text += boards_modelled(m);
+  text += sentence_line(fmt::format(
+      "Triangles: {} made, {} of them of zero area{}.", grouped(m.objects_made), grouped(m.objects_degenerate),
+      has_boards(result) ? fmt::format(", {} without a processor", grouped(m.objects_dropped)) : std::string()));
+  text += sentence_line(fmt::format("Fragments: {} into the {} = {} kept + {} hidden.", grouped(m.fragments_in),
+                                    has_boards(result) ? "decision unit" : "depth test", grouped(m.fragments_kept),
+                                    grouped(m.fragments_hidden)));
   for (const std::string& sentence : m.left_out) text += sentence_line("Left out: " + sentence);
   return text;
 }
@@ -273,7 +292,7 @@ std::string text_report(const Contents& contents) {
   text += limits_section(result);
   text += units_section(result);
   text += budgets_section(result);
-  text += deadlines_section(result);
+  if (has_boards(result)) text += deadlines_section(result);
   text += links_section(result);
   text += error_section(result);
   text += memory_section(result);

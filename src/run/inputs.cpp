@@ -45,12 +45,17 @@ void read_machine(const std::string& file, const std::vector<config::Override>& 
                   Diagnostics& diagnostics) {
   const config::Document document = config::Document::from_file(file);
   const bool schema = config::check_schema(document, kSchema, diagnostics);
-  const bool platform = config::choose_platform(document, overrides, {"imogene"}, diagnostics).has_value();
+  const auto platform = config::choose_platform(document, overrides, {"imogene", "quadratic"}, diagnostics);
   if (!schema || !platform) return;
-  parameter::Table table = parameter::view(content.machine);
+  if (*platform == "quadratic") content.machine = quadratic::Machine{};
   Diagnostics found;
-  content.machine_origins = config::read(document, table, overrides, found);
-  if (found.empty()) content.machine.check(found, file);
+  std::visit(
+      [&](auto& machine) {
+        parameter::Table table = parameter::view(machine);
+        content.machine_origins = config::read(document, table, overrides, found);
+        if (found.empty()) machine.check(found, file);
+      },
+      content.machine);
   for (const Diagnostic& diagnostic : found.list()) diagnostics.add(located(diagnostic, content.machine_origins, file));
 }
 
@@ -104,9 +109,18 @@ InputError Inputs::Content::located(const InputError& error) const {
   return InputError(std::move(diagnostics));
 }
 
+const imogene::Machine& Inputs::Content::object_machine(const std::string& command) const {
+  if (const auto* known = std::get_if<imogene::Machine>(&machine)) return *known;
+  throw InputError({machine_file, 0, "platform", command + " knows the object machine alone: \"imogene\""});
+}
+
 std::string resolved_machine_toml(const Inputs& inputs) {
-  parameter::Table table = parameter::view(inputs.content->machine);
-  return config::resolved_text(table, inputs.content->machine_origins);
+  return std::visit(
+      [&](auto& machine) {
+        parameter::Table table = parameter::view(machine);
+        return config::resolved_text(table, inputs.content->machine_origins);
+      },
+      inputs.content->machine);
 }
 
 std::string resolved_scene_toml(const Inputs& inputs) {
@@ -115,10 +129,12 @@ std::string resolved_scene_toml(const Inputs& inputs) {
 }
 
 std::vector<std::pair<std::string, parameter::Table>> described_tables() {
-  static imogene::Machine machine;
+  static imogene::Machine imogene_machine;
+  static quadratic::Machine quadratic_machine;
   static scene::SceneDescription description;
   std::vector<std::pair<std::string, parameter::Table>> tables;
-  tables.emplace_back("machine imogene", parameter::view(machine));
+  tables.emplace_back("machine imogene", parameter::view(imogene_machine));
+  tables.emplace_back("machine quadratic", parameter::view(quadratic_machine));
   tables.emplace_back("scene", parameter::view(description));
   return tables;
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <variant>
 
 #include "platforms/imogene/machine.h"
+#include "platforms/quadratic/machine.h"
 #include "src/base/errors.h"
 #include "src/config/origins.h"
 #include "src/run/simulate.h"
@@ -14,11 +16,14 @@ namespace rastertlm::run {
 struct Inputs::Content {
   std::string machine_file;
   std::string scene_file;
-  imogene::Machine machine;
+  std::variant<imogene::Machine, quadratic::Machine> machine;
   config::Origins machine_origins;
   scene::SceneDescription description;
   config::Origins scene_origins;
   scene::Scene scene;
+
+  // Throws InputError where the machine file names another platform; `command` is what the program was asked for.
+  const imogene::Machine& object_machine(const std::string& command) const;
 
   // What a machine finds wrong with its own file or with the scene, with file and line.
   InputError located(const InputError& error) const;

@@ -134,6 +134,21 @@ struct Deadlines {
   } host;
 };
 
+// What only a machine with a span unit has.
+struct SpanFrameFigures {
+  std::uint64_t drawn_pieces = 0;  // triangles handed to the span unit, children of split ones counted one by one
+  std::uint64_t splits = 0;
+  std::uint64_t at_depth_limit = 0;  // not split any more, and still off by more than the threshold
+  std::uint64_t flat = 0;            // drawn in one colour: too low, or the solver had no answer
+  std::uint64_t lighting_evaluations = 0;
+  std::uint64_t clamped_knots = 0;
+  std::uint64_t not_finite = 0;
+  std::uint64_t span_pixels = 0;        // drawn on the screen
+  std::uint64_t off_screen_pixels = 0;  // stepped over
+  double set_up_us = 0.0;               // from the frame's start to its last word, waits included
+  double shown_us = 0.0;                // from the frame's start to the retrace that shows it
+};
+
 // One displayed frame: its figures, not its pixels. Of interlaced video two fields are one frame: figures of triangles
 // are those of the first field's pose, operations and words those of both.
 struct FrameFigures {
@@ -160,6 +175,7 @@ struct FrameFigures {
   std::uint64_t late_table_lines = 0;     // shaded from half-written tables
   std::int64_t line_slack_cycles = 0;     // pixel clocks left at its worst line
   std::int64_t retrace_slack_cycles = 0;  // and of its retrace
+  SpanFrameFigures span;                  // of a machine with a span unit
   std::optional<double> host_slack_us;  // between the last host's last word and its retrace; none: no new coefficients
   std::vector<reference::ErrorFigures> errors;  // empty without reference
 };

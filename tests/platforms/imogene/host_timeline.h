@@ -108,7 +108,7 @@ inline Schedule timeline(const UpdateWork& work, const Parents& parents) {
 class Units {
  public:
   explicit Units(const run::Inputs& inputs) : scene_(inputs.content->scene) {
-    const imogene::Machine& machine = inputs.content->machine;
+    const imogene::Machine& machine = inputs.content->object_machine("this test");
     const auto columns = static_cast<std::size_t>(machine.video.columns);
     const auto lines = static_cast<std::size_t>(machine.video.lines);
     for (const scene::Object& object : scene_.objects)

@@ -1,0 +1,148 @@
+#include "src/run/quadratic_simulation.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "platforms/quadratic/quadratic.h"
+#include "src/base/digest.h"
+#include "src/config/writer.h"
+#include "src/parameter/table.h"
+#include "src/reference/metrics.h"
+#include "src/reference/renderer.h"
+#include "src/run/host_figures.h"
+#include "src/run/inputs.h"
+#include "src/run/quadratic_figures.h"
+
+namespace rastertlm::run {
+namespace {
+
+// Frames that show at what rate the machine goes on: it takes three to have an interval in steady state.
+constexpr std::uint64_t kLeastFrames = 3;
+
+FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown, const frame::Frame& pixels,
+                        int snap_bits) {
+  const host::SetUpCounts& counts = shown.set_up.counts;
+  const set_up::ColourCounts& colour = counts.colour;
+  FrameFigures f;
+  f.frame = number;
+  f.animation_frame = f.last_animation_frame = shown.set_up.animation_frame;
+  f.first_pixel_ps = shown.first_pixel_ps;
+  f.last_pixel_ps = shown.last_pixel_ps;
+  f.back_faces = colour.back_faces;
+  f.degenerate = colour.degenerate;
+  f.outside = counts.outside;
+  f.drawn = counts.triangles - std::min(counts.triangles, colour.degenerate);
+  f.facing = f.drawn - std::min(f.drawn, colour.back_faces + counts.outside);
+  f.pieces = counts.pieces;
+  f.snap_fraction_bits = snap_bits;
+  f.covered_pixels = static_cast<std::uint64_t>(
+      std::count_if(pixels.object.begin(), pixels.object.end(), [](std::uint32_t object) { return object != 0; }));
+  for (const std::uint32_t count : pixels.coverage) f.fragments += count;
+  f.host_flops = counts.operations.flops();
+  f.words_sent = counts.words;
+  constexpr double kMicrosecond = 1e-6;
+  f.span = {colour.drawn,
+            colour.splits,
+            colour.at_limit,
+            colour.flat_low + colour.flat_undefined,
+            counts.lighting.evaluations,
+            counts.lighting.clamped_knots,
+            counts.lighting.not_finite,
+            shown.drawn.pixels,
+            shown.drawn.off_screen,
+            static_cast<double>(shown.set_up.end_ps - shown.set_up.begin_ps) * kMicrosecond,
+            static_cast<double>(shown.set_up.shown_ps - shown.set_up.begin_ps) * kMicrosecond};
+  return f;
+}
+
+class ExactPictures {
+ public:
+  ExactPictures(const quadratic::Machine& machine, const scene::Scene& scene) : scene_(scene) {
+    options_.columns = machine.viewport().columns;
+    options_.lines = machine.viewport().lines;
+    options_.grids = host::span_grids(machine.viewport(), static_cast<int>(machine.set_up.snap_bits));
+    options_.lights_at_points = true;
+  }
+  std::vector<reference::ErrorFigures> errors(const scene::Pose& pose, const frame::Frame& shown) {
+    std::vector<reference::ErrorFigures> errors;
+    for (auto& [kind, picture] : pictures_) {
+      options_.kind = kind;
+      picture = reference::render(scene_, pose, options_);
+      errors.push_back(reference::compare(shown, picture, reference::to_string(kind)));
+    }
+    return errors;
+  }
+  const frame::ExactFrame& ideal() const { return pictures_[0].second; }
+
+ private:
+  const scene::Scene& scene_;
+  reference::RenderOptions options_;
+  std::array<std::pair<reference::Reference, frame::ExactFrame>, 2> pictures_{
+      {{reference::Reference::ideal, {}}, {reference::Reference::true_model, {}}}};
+};
+
+Modelled modelled_figures(const quadratic::Quadratic& platform, const scene::Scene& scene) {
+  Modelled m;
+  m.objects_made = scene.triangle_count();
+  for (const scene::Object& object : scene.objects) m.objects_degenerate += object.mesh.degenerate;
+  const frame_store::StoreCounters& store = platform.store().counters();
+  m.fragments_in = store.fragments_in;
+  m.fragments_kept = store.fragments_kept;
+  m.fragments_hidden = store.fragments_hidden;
+  if (platform.frame_store().never_waited_for())
+    m.left_out.emplace_back("the memory's schedule span by span: it keeps up with the span unit whatever is drawn");
+  return m;
+}
+
+}  // namespace
+
+Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& inputs, const Options& options,
+                          const FrameSink& sink) {
+  const scene::Scene& scene = inputs.content->scene;
+  const auto start = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::duration outside{};  // spent in references and sinks, which is not the simulation's
+  Result result;
+  ExactPictures exact(machine, scene);
+  const auto show = [&](const quadratic::ShownFrame& shown, const frame::Frame& pixels) {
+    if (result.frames.size() >= options.frames) return;
+    const auto entered = std::chrono::steady_clock::now();
+    FrameFigures figures = figures_of(result.frames.size(), shown, pixels, static_cast<int>(machine.set_up.snap_bits));
+    if (options.reference) figures.errors = exact.errors(shown.set_up.pose, pixels);
+    if (sink) sink({pixels, options.reference ? &exact.ideal() : nullptr, figures});
+    result.frames.push_back(std::move(figures));
+    outside += std::chrono::steady_clock::now() - entered;
+  };
+  std::unique_ptr<quadratic::Quadratic> platform;
+  const std::uint64_t frames = std::max(options.frames, kLeastFrames);
+  try {
+    platform = std::make_unique<quadratic::Quadratic>(machine, scene, quadratic::Options{frames}, show);
+    platform->run();
+  } catch (const InputError& error) {
+    throw inputs.content->located(error);
+  }
+  result.platform = "quadratic";
+  quadratic::Machine resolved = machine;
+  parameter::Table table = parameter::view(resolved);
+  result.config_digest = config::digest(table);
+  result.scene_digest = scene.digest;
+  result.frame_count = options.frames;
+  result.columns = machine.viewport().columns;
+  result.lines = machine.viewport().lines;
+  result.obtained_refresh_hz = platform->timing().obtained_refresh_hz();
+  result.units = unit_figures(*platform);
+  result.budgets = quadratic_budgets(*platform);
+  result.answer = quadratic_answer(*platform, result.budgets);
+  result.links = link_figures(*platform);
+  result.memories = memory_figures(*platform);
+  result.logic = logic_figures(*platform);
+  result.modelled = modelled_figures(*platform, scene);
+  result.warnings = quadratic_warnings(*platform);
+  if (options.host_figures)
+    result.host =
+        host_figures(std::chrono::steady_clock::now() - start - outside, frames * platform->timing().frame.count());
+  return result;
+}
+
+}  // namespace rastertlm::run
