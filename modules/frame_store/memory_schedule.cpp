@@ -51,33 +51,27 @@ std::uint64_t MemorySchedule::burst_begin(std::uint64_t number) const {
   return timing_->clock.picoseconds(begins);
 }
 
-// A burst that begins while nobody draws delays nobody, and one that begins before the request has ended by then, or
-// ends in its time.
+// A burst begins when it is due, or when what was before it ends.
 std::uint64_t MemorySchedule::serve(std::uint64_t begin_ps, std::uint64_t accesses) {
   std::uint64_t now = std::max(begin_ps, free_ps_);
   std::uint64_t left = accesses;
   while (left > 0) {
-    if (now + left * access_ps_ <= next_burst_ps_) {
-      now += left * access_ps_;
-      break;
-    }
-    std::uint64_t burst = next_burst_ps_;
-    if (now < burst) {
-      const std::uint64_t before = std::min(left, ceil_of(burst - now, access_ps_));
+    if (now < next_burst_ps_) {
+      // The access during which the burst falls due ends first.
+      const std::uint64_t before = std::min(left, (next_burst_ps_ - now - 1) / access_ps_ + 1);
       left -= before;
       now += before * access_ps_;
-      burst = now;  // the access that had begun ends first
-      if (left == 0) break;
+      free_ps_ = now;
+      continue;
     }
-    const std::uint64_t burst_end = burst + burst_ps_;
-    if (burst_end > now) {
-      waited_ps_ += burst_end - now;
-      now = burst_end;
+    free_ps_ = std::max(next_burst_ps_, free_ps_) + burst_ps_;
+    if (free_ps_ > now) {
+      waited_ps_ += free_ps_ - now;
+      now = free_ps_;
     }
     next_burst_ps_ = burst_begin(++next_burst_);
   }
   served_ps_ += accesses * access_ps_;
-  free_ps_ = now;
   return now;
 }
 

@@ -92,17 +92,16 @@ TEST(Reader, ListsTheKnownPresets) {
               ElementsAre("--set: host.preset: unknown preset 'zzzzzzzzz'; known presets of 'host': 'quick', 'slow'"));
 }
 
+// What another machine's table has may stand in a preset (that some machine has it is tested where all are known).
 TEST(Reader, ChecksPresetsAsWell) {
   sample::Configuration configuration;
   parameter::Table table = parameter::view(configuration);
   Diagnostics diagnostics;
   read(Document::from_text("schema = 1\n", "m.toml"), table, {}, diagnostics,
        Presets({{"host", {{"slow", "\nclock_hz = 0\nclok = 3\n"}}}}));
-  ASSERT_EQ(diagnostics.list().size(), 2U);
+  ASSERT_EQ(diagnostics.list().size(), 1U);
   EXPECT_EQ(to_string(diagnostics.list()[0]),
             "preset host/slow:2: host.clock_hz: 0 is out of range: it must be from 1 to 1000000000 Hz");
-  EXPECT_EQ(to_string(diagnostics.list()[1]),
-            "preset host/slow:3: host.clok: unknown key 'host.clok'; nearest known: 'host.clock_hz'");
 }
 
 TEST(Reader, RefusesWrongTypes) {

@@ -1,0 +1,158 @@
+// The spheres of 000/001, figures 9 to 11: how far is each method from a picture that is lit at every pixel?
+//
+// Everything is computed in double and not rounded to levels, over the pixels that both pictures cover. The figures are
+// those that the machine was specified by, measured with a program of their own.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "modules/host/set_up_work.h"
+#include "modules/span_unit/span_unit.h"
+#include "platforms/quadratic/machine.h"
+#include "src/reference/renderer.h"
+#include "src/run/inputs.h"
+
+namespace rastertlm {
+namespace {
+
+struct Distance {
+  double rmse = 0.0;
+  double largest = 0.0;
+  double psnr = 0.0;
+};
+
+struct Given {
+  const char* mesh;
+  int exponent;
+  const char* method;
+  const char* points;
+  double rmse, largest, psnr;  // 0: not in the table
+};
+
+class SphereTest : public testing::TestWithParam<Given> {
+ protected:
+  static run::Inputs inputs_of(const Given& given) {
+    std::vector<std::string> overrides{"set_up.method=" + std::string(given.method),
+                                       "material[0].exponent=" + std::to_string(given.exponent)};
+    if (std::string(given.method) == "quadratic_adaptive")
+      overrides.push_back("highlight_test.points=" + std::string(given.points));
+    const std::string source = RASTERTLM_SOURCE_DIR;
+    return run::read_inputs(source + "/configs/machines/quadratic.toml",
+                            source + "/configs/scenes/sphere_" + given.mesh + ".toml", overrides);
+  }
+};
+
+// The colours that the set-up processor found, evaluated in double where the span unit draws.
+std::vector<glm::dvec3> interpolated(const quadratic::Machine& machine, const scene::Scene& scene,
+                                     const scene::Pose& pose, std::vector<std::uint32_t>& objects) {
+  host::ResidentScene resident;
+  for (const scene::Object& object : scene.objects) resident.objects.push_back({&object.mesh, false, false});
+  std::vector<geometry::Reflectance> surfaces;
+  for (const scene::Material& m : scene.materials)
+    surfaces.push_back({m.ambient * m.colour, m.diffuse * m.colour, glm::dvec3(m.specular), m.exponent});
+  host::SetUpWork work(resident, machine.set_up, machine.set_up_format(), surfaces,
+                       {geometry::Model::phong, scene.specular_gate, scene.ambient_light});
+  const auto columns = static_cast<std::uint32_t>(machine.video.columns);
+  span_unit::SpanUnit unit(machine.span_unit, columns, static_cast<std::uint32_t>(machine.video.lines));
+  std::vector<glm::dvec3> levels(machine.viewport().columns * machine.viewport().lines);
+  objects.assign(levels.size(), 0);
+  work.begin_frame(pose, false);
+  while (work.next())
+    for (std::size_t i = 0; i < work.coloured().size(); ++i) {
+      const set_up::ColourTriangle& triangle = work.coloured()[i];
+      const double unit_step = std::ldexp(1.0, -triangle.fraction_bits);
+      unit.draw(set_up::span_load(triangle, machine.set_up_format().span), [&](const span_unit::Span& span) {
+        for (std::uint32_t x = span.column; x < span.column + span.count; ++x) {
+          const std::size_t pixel = std::size_t{span.line} * columns + x;
+          objects[pixel] = triangle.object;
+          for (int c = 0; c < 3; ++c)
+            levels[pixel][c] = std::clamp(triangle.colour[static_cast<std::size_t>(c)].at(
+                                              x - static_cast<double>(triangle.corners[0].x) * unit_step,
+                                              span.line - static_cast<double>(triangle.corners[0].y) * unit_step),
+                                          0.0, 255.0);
+        }
+      });
+    }
+  return levels;
+}
+
+Distance distance(const run::Inputs& inputs) {
+  const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
+  const scene::Scene& scene = inputs.content->scene;
+  const scene::Pose pose = scene::pose(scene, 0, machine.viewport().columns, machine.viewport().lines);
+  reference::RenderOptions options;
+  options.columns = machine.viewport().columns;
+  options.lines = machine.viewport().lines;
+  options.grids = host::span_grids(machine.viewport(), 4);
+  const frame::ExactFrame exact = reference::render(scene, pose, options);
+  std::vector<std::uint32_t> objects;
+  const std::vector<glm::dvec3> levels = interpolated(machine, scene, pose, objects);
+  double sum = 0.0;
+  std::size_t compared = 0;
+  Distance d;
+  for (std::size_t pixel = 0; pixel < levels.size(); ++pixel) {
+    if (objects[pixel] == 0 || exact.object[pixel] == 0) continue;
+    const double off = levels[pixel].x - exact.rgb[3 * pixel];
+    sum += off * off;
+    d.largest = std::max(d.largest, std::fabs(off));
+    ++compared;
+  }
+  d.rmse = std::sqrt(sum / static_cast<double>(compared));
+  d.psnr = 20 * std::log10(255 / d.rmse);
+  return d;
+}
+
+TEST_P(SphereTest, IsAsFarFromLightAtEveryPixelAsTheTableSays) {
+  const Given& given = GetParam();
+  const Distance d = distance(inputs_of(given));
+  std::printf("%s %d %s %s: RMSE %.3f, largest %.2f, PSNR %.2f dB\n", given.mesh, given.exponent, given.method,
+              given.points, d.rmse, d.largest, d.psnr);
+  EXPECT_NEAR(d.rmse, given.rmse, 0.03 * given.rmse);
+  if (given.largest > 0) {
+    EXPECT_NEAR(d.largest, given.largest, 0.03 * given.largest);
+  }
+  if (given.psnr > 0) {
+    EXPECT_NEAR(d.psnr, given.psnr, 0.03 * given.psnr);
+  }
+}
+
+constexpr Given kTable[] = {
+    {"168", 5, "gouraud", "", 11.88, 67.9, 26.6},
+    {"168", 5, "quadratic", "", 2.11, 17.5, 41.7},
+    {"168", 5, "quadratic_adaptive", "centroid", 1.63, 17.5, 43.9},
+    {"168", 50, "gouraud", "", 8.60, 107.6, 29.4},
+    {"168", 50, "quadratic", "", 4.65, 54.7, 34.8},
+    {"168", 50, "quadratic_adaptive", "centroid", 3.55, 54.6, 37.1},
+    {"168", 50, "quadratic_adaptive", "points", 0.93, 6.2, 0},
+    {"374", 5, "gouraud", "", 6.10, 34.9, 32.4},
+    {"374", 5, "quadratic", "", 0.91, 7.1, 48.9},
+    {"374", 5, "quadratic_adaptive", "centroid", 0.91, 7.1, 48.9},
+    {"374", 50, "gouraud", "", 6.71, 94.4, 31.6},
+    {"374", 50, "quadratic", "", 3.31, 42.4, 37.8},
+    {"374", 50, "quadratic_adaptive", "centroid", 1.44, 41.8, 45.0},
+    {"690", 5, "gouraud", "", 3.44, 24.7, 37.4},
+    {"690", 5, "quadratic", "", 0.49, 3.9, 54.4},
+    {"690", 5, "quadratic_adaptive", "centroid", 0.49, 3.9, 54.4},
+    {"690", 50, "gouraud", "", 5.93, 88.9, 32.7},
+    {"690", 50, "quadratic", "", 1.94, 37.8, 42.4},
+    {"690", 50, "quadratic_adaptive", "centroid", 1.48, 37.8, 44.8},
+};
+INSTANTIATE_TEST_SUITE_P(Table, SphereTest, testing::ValuesIn(kTable), [](const auto& one) {
+  const Given& g = one.param;
+  return "Of" + std::string(g.mesh) + "Exponent" + std::to_string(g.exponent) + g.method + g.points;
+});
+
+// The further test points find a highlight that is beside the centre.
+TEST(Spheres, FurtherTestPointsKeepTheErrorSmall) {
+  const std::string source = RASTERTLM_SOURCE_DIR;
+  const Distance d = distance(run::read_inputs(
+      source + "/configs/machines/quadratic.toml", source + "/configs/scenes/sphere_168.toml",
+      {"set_up.method=quadratic_adaptive", "highlight_test.points=points", "material[0].exponent=50"}));
+  EXPECT_LE(d.rmse, 1.1);
+}
+
+}  // namespace
+}  // namespace rastertlm
