@@ -17,6 +17,7 @@ const Condition kAdaptive{"set_up.method", {"quadratic_adaptive"}};
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
+  names.reserve(kShadingMethods.size());
   for (const ShadingMethodTraits& traits : kShadingMethods) names.emplace_back(traits.name);
   return names;
 }

@@ -39,7 +39,7 @@ class SpanUnit {
   // Calls sink(const Span&) for every line of the load on the screen, in order; also for those without a pixel, which
   // take a clock. Pixels left of the screen are stepped over, a clock each; the line ends at the screen's right edge.
   template <class Sink>
-  void draw(const TriangleLoad& load, const Sink& sink);
+  void draw(const TriangleLoad& triangle, const Sink& sink);
 
   const SpanCounters& counters() const { return counters_; }
 

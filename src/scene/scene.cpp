@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -63,6 +64,9 @@ class Builder {
     const glm::dvec3 scale = vector(description.scale);
     object.placement =
         translation(vector(description.translate)) * rotation_xyz_deg(vector(description.rotate_deg)) * scaling(scale);
+    const bool round = std::fabs(scale.x) == std::fabs(scale.y) && std::fabs(scale.y) == std::fabs(scale.z);
+    if (description.kind == ObjectKind::uv_sphere && round)
+      object.sphere_radius = description.radius * std::fabs(scale.x);
     object.mesh = make_mesh(description, path);
     Mesh& mesh = object.mesh;
     if (mesh.triangles.empty()) return;

@@ -32,6 +32,7 @@ struct Object {
   glm::dmat4 placement{1.0};  // to world space, before animation
   bool two_sided = false;
   std::vector<AnimationDescription> animation;
+  double sphere_radius = 0.0;  // placed: the mesh stands for a sphere about its origin; 0: it does not
 };
 
 struct Scene {

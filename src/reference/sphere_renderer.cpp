@@ -1,0 +1,102 @@
+#include "src/reference/sphere_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
+#include <vector>
+
+#include "src/geometry/lighting.h"
+
+namespace rastertlm::reference {
+namespace {
+
+struct Sphere {
+  glm::dvec3 centre;
+  double radius;
+  std::uint16_t material;
+};
+
+struct Hit {
+  std::size_t sphere = 0;
+  double along = 0.0;  // of the ray from the near to the far plane
+};
+
+std::vector<Sphere> spheres_of(const scene::Scene& scene, const scene::Pose& pose) {
+  std::vector<Sphere> spheres;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    spheres.push_back(
+        {glm::dvec3(pose.object_to_eye[i][3]), scene.objects[i].sphere_radius, scene.objects[i].mesh.material.front()});
+  return spheres;
+}
+
+// From `from` on; the nearest side that the ray enters by, within 0..1.
+std::optional<Hit> nearest(const std::vector<Sphere>& spheres, const glm::dvec3& from, const glm::dvec3& ray) {
+  std::optional<Hit> best;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const glm::dvec3 offset = from - spheres[i].centre;
+    const double a = glm::dot(ray, ray);
+    const double half_b = glm::dot(offset, ray);
+    const double c = glm::dot(offset, offset) - spheres[i].radius * spheres[i].radius;
+    const double discriminant = half_b * half_b - a * c;
+    if (discriminant < 0.0) continue;
+    const double along = (-half_b - std::sqrt(discriminant)) / a;
+    if (along >= 0.0 && along <= 1.0 && (!best || along < best->along)) best = {i, along};
+  }
+  return best;
+}
+
+}  // namespace
+
+bool is_of_spheres(const scene::Scene& scene) {
+  return !scene.objects.empty() && std::all_of(scene.objects.begin(), scene.objects.end(),
+                                               [](const scene::Object& object) { return object.sphere_radius > 0.0; });
+}
+
+frame::ExactFrame render_spheres(const scene::Scene& scene, const scene::Pose& pose, std::size_t columns,
+                                 std::size_t lines) {
+  frame::ExactFrame out;
+  out.resize(columns, lines);
+  const std::vector<Sphere> spheres = spheres_of(scene, pose);
+  const glm::dmat4 clip_to_eye = glm::inverse(pose.eye_to_clip);
+  const bool viewer_at_eye = scene.camera.projection == scene::ProjectionKind::perspective;
+  const geometry::LightingRules rules{
+      scene.model == scene::LightingModel::phong ? geometry::Model::phong : geometry::Model::blinn, scene.specular_gate,
+      scene.ambient_light};
+  std::vector<geometry::LightSource> lights;
+  for (const scene::Light& light : pose.lights)
+    lights.push_back({light.kind == scene::LightKind::point, light.vector, light.intensity, light.intensity});
+  const auto in_eye = [&](double x, double y, double z) {
+    const glm::dvec4 point = clip_to_eye * glm::dvec4(x, y, z, 1.0);
+    return glm::dvec3(point) / point.w;
+  };
+  for (std::size_t line = 0; line < lines; ++line)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const std::size_t pixel = line * columns + column;
+      const double x = (static_cast<double>(column) + 0.5) * 2 / static_cast<double>(columns) - 1;
+      const double y = 1 - (static_cast<double>(line) + 0.5) * 2 / static_cast<double>(lines);
+      const glm::dvec3 from = in_eye(x, y, 0.0);
+      const glm::dvec3 ray = in_eye(x, y, 1.0) - from;
+      glm::dvec3 levels = scene.background;
+      if (const auto hit = nearest(spheres, from, ray)) {
+        const Sphere& sphere = spheres[hit->sphere];
+        const glm::dvec3 point = from + hit->along * ray;
+        const scene::Material& m = scene.materials[sphere.material];
+        const geometry::Reflectance surface{m.ambient * m.colour, m.diffuse * m.colour, glm::dvec3(m.specular),
+                                            m.exponent};
+        const glm::dvec3 normal = (point - sphere.centre) / sphere.radius;
+        const glm::dvec3 viewer = viewer_at_eye ? geometry::normalised<double>(-point) : glm::dvec3(0, 0, 1);
+        levels = glm::clamp(255.0 * geometry::illumination<double>(surface, lights, rules, normal, viewer, point), 0.0,
+                            255.0);
+        const glm::dvec4 clip = pose.eye_to_clip * glm::dvec4(point, 1.0);
+        out.depth[pixel] = clip.z / clip.w;
+        out.object[pixel] = static_cast<std::uint32_t>(hit->sphere + 1);
+        out.coverage[pixel] = 1;
+      }
+      for (int c = 0; c < 3; ++c) out.rgb[3 * pixel + static_cast<std::size_t>(c)] = levels[c];
+    }
+  return out;
+}
+
+}  // namespace rastertlm::reference
