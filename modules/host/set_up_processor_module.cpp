@@ -40,6 +40,7 @@ void SetUpProcessorModule::run() {
     transport(LoadPayload::Kind::end);
     frame.shown_ps = payload_.shown_ps;
     frame.counts = work_.counts();
+    frame.colour_steps = work_.colour_steps();
     occupancy_.cycles = now_.count();
     if (timeline_.drawn) timeline_.drawn(frame);
     sc_core::sc_pause();

@@ -21,6 +21,7 @@ struct SetUpFrame {
   std::int64_t animation_frame = 0;
   geometry::Pose pose;
   SetUpCounts counts;
+  set_up::ColourSteps colour_steps;
   std::uint64_t begin_ps = 0;  // of its set-up
   std::uint64_t end_ps = 0;    // its last word has been written
   std::uint64_t shown_ps = 0;

@@ -101,6 +101,7 @@ void SetUpWork::begin_frame(const geometry::Pose& pose, bool viewer_at_eye) {
     object_to_clip_[i] = matrix_product<double>(pose.eye_to_clip, pose.object_to_eye[i]);
     waiting_operations_ += matrix;
   }
+  frame_.clear();
   object_ = triangle_ = 0;
   number_ = 0;
   counts_ = {};
@@ -153,6 +154,8 @@ bool SetUpWork::next() {
   if (pieces.size > 1) counts_.pieces += pieces.size - 1;
   for (const auto& piece : pieces.list()) colour(piece, object_, triangle_);
   triangle_operations_ += colourer_.operations() - colouring;
+  if (parameters_.method == ShadingMethod::quadratic_adaptive)
+    frame_.insert(frame_.end(), coloured_.begin(), coloured_.end());
   for (const set_up::ColourTriangle& triangle : coloured_) {
     const span_unit::TriangleLoad load = set_up::span_load(triangle, format_.span);
     triangle_operations_ += set_up::cost_of(load, load_costs_);

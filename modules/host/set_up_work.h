@@ -8,6 +8,7 @@
 
 #include "modules/host/path_counts.h"
 #include "modules/host/resident_scene.h"
+#include "modules/set_up/colour_steps.h"
 #include "modules/set_up/parameters.h"
 #include "modules/set_up/pieces.h"
 #include "modules/set_up/point_lighting.h"
@@ -54,6 +55,8 @@ class SetUpWork {
 
   // Of the frame so far.
   const SetUpCounts& counts() const { return counts_; }
+  // Of a frame that has been computed, where the method splits triangles.
+  set_up::ColourSteps colour_steps() const { return set_up::colour_steps(frame_); }
   const geometry::FrameGrid& grid() const { return grid_; }
 
  private:
@@ -89,6 +92,7 @@ class SetUpWork {
   set_up::ColourCounts colour_start_;
   set_up::LightingCounts lighting_start_;
   std::vector<set_up::ColourTriangle> coloured_;
+  std::vector<set_up::ColourTriangle> frame_;  // all of the frame's, where some may have been split
   std::vector<span_unit::TriangleLoad> loads_;
   SetUpCounts counts_;
 };

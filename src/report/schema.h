@@ -231,6 +231,10 @@ void visit_span(Visitor& v, run::SpanFrameFigures& s) {
           s.at_depth_limit);
   v.value("flat", {"triangles", kCount, "drawn in one colour: too low, or the solver had no answer"}, s.flat);
   v.value("lighting_evaluations", {"evaluations", kCount, "of the lighting equation"}, s.lighting_evaluations);
+  v.value("step_edges", {"edges", kCount, "that one triangle has whole and its neighbours, split, in parts"},
+          s.step_edges);
+  v.value("largest_step_levels", {"levels", kFormula, "of colour along such an edge, in any channel"},
+          s.largest_step_levels);
   v.value("clamped_knots", {"values", kCount, "channels of points beyond the levels"}, s.clamped_knots);
   v.value("not_finite", {"values", kCount, "channels of points that were no numbers: black"}, s.not_finite);
   v.value("span_pixels", {"pixels", kCount, "that the span unit drew on the screen"}, s.span_pixels);

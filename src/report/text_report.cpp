@@ -200,6 +200,9 @@ std::string pictures_section(const run::Result& result) {
     add("more pieces by clipping", f.pieces, "triangles");
     add("handed to the span unit, children included", f.span.drawn_pieces, "triangles");
     add("split by the highlight test", f.span.splits, "triangles");
+    if (f.span.splits > 0)
+      table.row({"largest step of colour beside a split triangle", fmt::format("{:.4g}", f.span.largest_step_levels),
+                 "levels"});
     add("in one colour", f.span.flat, "triangles");
     add("light evaluated", f.span.lighting_evaluations, "times");
   }

@@ -141,6 +141,8 @@ struct SpanFrameFigures {
   std::uint64_t at_depth_limit = 0;  // not split any more, and still off by more than the threshold
   std::uint64_t flat = 0;            // drawn in one colour: too low, or the solver had no answer
   std::uint64_t lighting_evaluations = 0;
+  std::uint64_t step_edges = 0;      // that one triangle has whole and its neighbours, split, in parts
+  double largest_step_levels = 0.0;  // of colour, along them
   std::uint64_t clamped_knots = 0;
   std::uint64_t not_finite = 0;
   std::uint64_t span_pixels = 0;        // drawn on the screen
