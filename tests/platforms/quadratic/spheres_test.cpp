@@ -9,11 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "modules/host/set_up_work.h"
-#include "modules/span_unit/span_unit.h"
-#include "platforms/quadratic/machine.h"
 #include "src/reference/renderer.h"
-#include "src/run/inputs.h"
+#include "tests/platforms/quadratic/sphere_frames.h"
 
 namespace rastertlm {
 namespace {
@@ -39,43 +36,24 @@ class SphereTest : public testing::TestWithParam<Given> {
                                        "material[0].exponent=" + std::to_string(given.exponent)};
     if (std::string(given.method) == "quadratic_adaptive")
       overrides.push_back("highlight_test.points=" + std::string(given.points));
-    const std::string source = RASTERTLM_SOURCE_DIR;
-    return run::read_inputs(source + "/configs/machines/quadratic.toml",
-                            source + "/configs/scenes/sphere_" + given.mesh + ".toml", overrides);
+    return test::sphere_inputs(given.mesh, overrides);
   }
 };
 
 // The colours that the set-up processor found, evaluated in double where the span unit draws.
-std::vector<glm::dvec3> interpolated(const quadratic::Machine& machine, const scene::Scene& scene,
-                                     const scene::Pose& pose, std::vector<std::uint32_t>& objects) {
-  host::ResidentScene resident;
-  for (const scene::Object& object : scene.objects) resident.objects.push_back({&object.mesh, false, false});
-  std::vector<geometry::Reflectance> surfaces;
-  for (const scene::Material& m : scene.materials)
-    surfaces.push_back({m.ambient * m.colour, m.diffuse * m.colour, glm::dvec3(m.specular), m.exponent});
-  host::SetUpWork work(resident, machine.set_up, machine.set_up_format(), surfaces,
-                       {geometry::Model::phong, scene.specular_gate, scene.ambient_light});
-  const auto columns = static_cast<std::uint32_t>(machine.video.columns);
-  span_unit::SpanUnit unit(machine.span_unit, columns, static_cast<std::uint32_t>(machine.video.lines));
-  std::vector<glm::dvec3> levels(machine.viewport().columns * machine.viewport().lines);
+std::vector<glm::dvec3> interpolated(const run::Inputs& inputs, std::vector<std::uint32_t>& objects) {
+  const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
+  const std::size_t columns = machine.viewport().columns;
+  std::vector<glm::dvec3> levels(columns * machine.viewport().lines);
   objects.assign(levels.size(), 0);
-  work.begin_frame(pose, false);
-  while (work.next())
-    for (std::size_t i = 0; i < work.coloured().size(); ++i) {
-      const set_up::ColourTriangle& triangle = work.coloured()[i];
-      const double unit_step = std::ldexp(1.0, -triangle.fraction_bits);
-      unit.draw(set_up::span_load(triangle, machine.set_up_format().span), [&](const span_unit::Span& span) {
-        for (std::uint32_t x = span.column; x < span.column + span.count; ++x) {
-          const std::size_t pixel = std::size_t{span.line} * columns + x;
-          objects[pixel] = triangle.object;
-          for (int c = 0; c < 3; ++c)
-            levels[pixel][c] = std::clamp(triangle.colour[static_cast<std::size_t>(c)].at(
-                                              x - static_cast<double>(triangle.corners[0].x) * unit_step,
-                                              span.line - static_cast<double>(triangle.corners[0].y) * unit_step),
-                                          0.0, 255.0);
-        }
-      });
+  test::visit_spans(inputs, [&](const set_up::ColourTriangle& triangle, const span_unit::Span& span) {
+    for (std::uint32_t x = span.column; x < span.column + span.count; ++x) {
+      const std::size_t pixel = span.line * columns + x;
+      objects[pixel] = triangle.object;
+      for (std::size_t c = 0; c < 3; ++c)
+        levels[pixel][static_cast<int>(c)] = std::clamp(test::colour_at(triangle, c, x, span.line), 0.0, 255.0);
     }
+  });
   return levels;
 }
 
@@ -89,7 +67,7 @@ Distance distance(const run::Inputs& inputs) {
   options.grids = host::span_grids(machine.viewport(), 4);
   const frame::ExactFrame exact = reference::render(scene, pose, options);
   std::vector<std::uint32_t> objects;
-  const std::vector<glm::dvec3> levels = interpolated(machine, scene, pose, objects);
+  const std::vector<glm::dvec3> levels = interpolated(inputs, objects);
   double sum = 0.0;
   std::size_t compared = 0;
   Distance d;
@@ -147,10 +125,8 @@ INSTANTIATE_TEST_SUITE_P(Table, SphereTest, testing::ValuesIn(kTable), [](const 
 
 // The further test points find a highlight that is beside the centre.
 TEST(Spheres, FurtherTestPointsKeepTheErrorSmall) {
-  const std::string source = RASTERTLM_SOURCE_DIR;
-  const Distance d = distance(run::read_inputs(
-      source + "/configs/machines/quadratic.toml", source + "/configs/scenes/sphere_168.toml",
-      {"set_up.method=quadratic_adaptive", "highlight_test.points=points", "material[0].exponent=50"}));
+  const Distance d = distance(test::sphere_inputs(
+      "168", {"set_up.method=quadratic_adaptive", "highlight_test.points=points", "material[0].exponent=50"}));
   EXPECT_LE(d.rmse, 1.1);
 }
 
