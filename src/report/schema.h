@@ -353,6 +353,9 @@ void visit(Visitor& v, Contents& contents) {
   v.value("config_digest", {"", kFormula, "SHA-256 of the resolved machine, without origins"}, r.config_digest);
   v.value("scene_digest", {"", kFormula, "SHA-256 of the scene and of its mesh files"}, r.scene_digest);
   v.value("frames", {"frames", kSetting, "displayed frames that were simulated"}, r.frame_count);
+  if (kinds.spans)
+    v.value("simulated_frames", {"frames", kFormula, "that cycles, links and fragments are of: at least three"},
+            r.simulated_frames);
   v.object("video", "the picture", [&](Visitor& o) {
     o.value("columns", {"pixels", kSetting, "of a line"}, r.columns);
     o.value("lines", {"lines", kSetting, "of a frame"}, r.lines);

@@ -76,7 +76,8 @@ std::string units_section(const run::Result& result) {
                     percent_of(u.blocked, u.cycles), grouped(u.idle), percent_of(u.idle, u.cycles)});
   for (auto& row : merged_rows(rows)) table.row(std::move(row));
   return heading(fmt::format("Where the cycles go ({}, cycles of each unit's own clock)",
-                             counted(result.frame_count, "displayed frame", "displayed frames"))) +
+                             has_boards(result) ? counted(result.frame_count, "displayed frame", "displayed frames")
+                                                : counted(result.simulated_frames, "frame", "frames"))) +
          table.text();
 }
 
@@ -291,6 +292,9 @@ std::string text_report(const Contents& contents) {
   std::string text = answer_sentence(result) + '\n';
   text += fmt::format("Machine: {}. {} simulated.\n", result.platform,
                       counted(result.frame_count, "displayed frame", "displayed frames"));
+  if (!has_boards(result) && result.simulated_frames > result.frame_count)
+    text += fmt::format("Its rate is that of {}; cycles, links and fragments are of all of them.\n",
+                        counted(result.simulated_frames, "frame", "frames"));
   text += warnings_section(result);
   text += limits_section(result);
   text += units_section(result);

@@ -194,7 +194,7 @@ Result simulate_imogene(const imogene::Machine& machine, const Inputs& inputs, c
   parameter::Table table = parameter::view(resolved);
   result.config_digest = config::digest(table);
   result.scene_digest = scene.digest;
-  result.frame_count = options.frames;
+  result.frame_count = result.simulated_frames = options.frames;
   result.columns = static_cast<std::size_t>(machine.video.columns);
   result.lines = static_cast<std::size_t>(machine.video.lines);
   result.obtained_refresh_hz = platform->timing().obtained_refresh_hz();

@@ -140,6 +140,7 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   result.config_digest = config::digest(table);
   result.scene_digest = scene.digest;
   result.frame_count = options.frames;
+  result.simulated_frames = frames;
   result.columns = machine.viewport().columns;
   result.lines = machine.viewport().lines;
   result.obtained_refresh_hz = platform->timing().obtained_refresh_hz();

@@ -201,6 +201,9 @@ struct Result {
   std::string config_digest;
   std::string scene_digest;
   std::uint64_t frame_count = 0;
+  // Frames that cycles, links and fragments are of: those that are displayed, and of a machine whose rate takes some
+  // frames to show, others.
+  std::uint64_t simulated_frames = 0;
   std::size_t columns = 0;
   std::size_t lines = 0;
   double obtained_refresh_hz = 0.0;
