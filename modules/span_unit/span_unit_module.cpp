@@ -9,15 +9,20 @@ namespace rastertlm::span_unit {
 using frame_store::SpanPayload;
 
 SpanUnitModule::SpanUnitModule(const sc_core::sc_module_name& name, const SpanUnitParameters& parameters,
-                               SpanUnit& unit, stream::Link& link)
+                               std::uint32_t columns, std::uint32_t lines, stream::Link& link)
     : sc_module(name),
       bus("bus"),
       out("out"),
       parameters_(parameters),
-      unit_(unit),
+      unit_(parameters, columns, lines),
       clock_(parameters.clock()),
       link_(link) {
   bus.register_b_transport(this, &SpanUnitModule::receive);
+  if (parameters.units > 1 && parameters.share == Share::triangles)
+    dealt_ = std::make_unique<DealtUnits>(parameters, columns, lines,
+                                          [this](std::uint64_t begin_ps, const Span& span, const TriangleLoad& load) {
+                                            return store(begin_ps, span, load);
+                                          });
 }
 
 void SpanUnitModule::receive(LoadPayload& payload, sc_core::sc_time& delay) {
@@ -39,9 +44,11 @@ void SpanUnitModule::begin_frame(LoadPayload&, sc_core::sc_time& delay) {
   sc_core::sc_time until = delay;
   out->b_transport(payload_, until);
   buffer_free_ = clock_.cycles_at(stream::picoseconds_now() + until.value()).count();
+  if (dealt_) dealt_->begin_frame(buffer_free_);
 }
 
 void SpanUnitModule::end_frame(LoadPayload& payload, sc_core::sc_time&) {
+  if (dealt_) free_ = dealt_->finish();
   payload_.kind = SpanPayload::Kind::end;
   const std::uint64_t now = stream::picoseconds_now();
   sc_core::sc_time until = stream::to_time(std::max(end_ps(), now) - now);
@@ -61,11 +68,13 @@ std::uint64_t SpanUnitModule::set_free_ps() const {
 void SpanUnitModule::draw(LoadPayload& payload, sc_core::sc_time& delay) {
   const std::uint64_t now = stream::picoseconds_now();
   const std::uint64_t asked = now + delay.value();
-  const std::uint64_t begin = std::max(asked, set_free_ps());
+  const std::uint64_t begin =
+      dealt_ ? dealt_->accept(*payload.load, asked, payload.write_ps) : std::max<std::uint64_t>(asked, set_free_ps());
   payload.blocked_ps = begin - asked;
   const std::uint64_t written = begin + payload.write_ps;
   delay = stream::to_time(written - now);
   ++loads_received_;
+  if (dealt_) return;
   const std::uint64_t there = std::max(clock_.cycles_at(written).count(), free_);
   const std::uint64_t start = std::max(there, buffer_free_);
   occupancy_.starved += there - free_;
@@ -80,10 +89,6 @@ void SpanUnitModule::draw(LoadPayload& payload, sc_core::sc_time& delay) {
 void SpanUnitModule::draw_from(std::uint64_t cycle, const TriangleLoad& load) {
   const auto load_cycles = static_cast<std::uint64_t>(parameters_.load_cycles);
   const auto line_change = static_cast<std::uint64_t>(parameters_.line_change_cycles);
-  const std::uint64_t now = stream::picoseconds_now();
-  payload_.kind = SpanPayload::Kind::span;
-  payload_.object = load.object;
-  payload_.material = load.material;
   cycle += load_cycles;
   occupancy_.busy += load_cycles;
   bool first = true;
@@ -95,26 +100,46 @@ void SpanUnitModule::draw_from(std::uint64_t cycle, const TriangleLoad& load) {
     first = false;
     const std::uint64_t end = cycle + span.cycles;
     occupancy_.busy += span.cycles;
-    std::uint64_t stored = end;
+    std::uint64_t taken = end;
     if (span.count > 0) {
-      payload_.span = &span;
-      link_.record(span.count, Cycles(span.count));
       const std::uint64_t begin_ps = clock_.picoseconds(Cycles(cycle));
-      sc_core::sc_time until = stream::to_time(begin_ps - now);
-      out->b_transport(payload_, until);
-      const std::uint64_t memory_end = now + until.value();
-      if (memory_end > begin_ps) stored = std::max(end, clock_.cycles_at(memory_end).count());
+      const std::uint64_t memory_end = store(begin_ps, span, load);
+      if (memory_end > begin_ps) taken = std::max(end, clock_.cycles_at(memory_end).count());
     }
-    occupancy_.blocked += stored - end;
-    cycle = stored;
+    occupancy_.blocked += taken - end;
+    cycle = taken;
   });
   free_ = cycle;
 }
 
-stream::Occupancy SpanUnitModule::occupancy() const {
-  stream::Occupancy all = occupancy_;
-  all.cycles = free_;
+// Returns when the memory has taken the span.
+std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, const Span& span, const TriangleLoad& load) {
+  payload_.kind = SpanPayload::Kind::span;
+  payload_.span = &span;
+  payload_.object = load.object;
+  payload_.material = load.material;
+  link_.record(span.count, Cycles(span.count));
+  const std::uint64_t now = stream::picoseconds_now();
+  sc_core::sc_time until = stream::to_time(begin_ps - now);
+  out->b_transport(payload_, until);
+  return now + until.value();
+}
+
+std::vector<stream::Occupancy> SpanUnitModule::occupancies() const {
+  std::vector<stream::Occupancy> all;
+  if (dealt_) {
+    for (std::size_t unit = 0; unit < dealt_->units(); ++unit) all.push_back(dealt_->occupancy(unit));
+    return all;
+  }
+  all.push_back(occupancy_);
+  all.front().cycles = free_;
   return all;
+}
+
+std::uint64_t SpanUnitModule::memory_cycles() const {
+  std::uint64_t blocked = 0;
+  for (const stream::Occupancy& unit : occupancies()) blocked += unit.blocked;
+  return blocked - (dealt_ ? dealt_->buffer_cycles() : blocked_by_buffer_);
 }
 
 }  // namespace rastertlm::span_unit

@@ -5,9 +5,11 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include <deque>
+#include <memory>
 #include <systemc>
 
 #include "modules/frame_store/span_payload.h"
+#include "modules/span_unit/dealt_units.h"
 #include "modules/span_unit/load_payload.h"
 #include "modules/span_unit/span_unit.h"
 #include "modules/stream/link.h"
@@ -20,16 +22,18 @@ class SpanUnitModule : public sc_core::sc_module {
   tlm_utils::simple_target_socket<SpanUnitModule, stream::kNoBusWidth, LoadProtocol> bus;
   tlm_utils::simple_initiator_socket<SpanUnitModule, stream::kNoBusWidth, frame_store::SpanProtocol> out;
 
-  // `link`: to the frame store, a pixel a cycle of the unit's clock.
-  SpanUnitModule(const sc_core::sc_module_name& name, const SpanUnitParameters& parameters, SpanUnit& unit,
-                 stream::Link& link);
+  // A board of one unit, of several that share the columns of every triangle, or of several that triangles are dealt
+  // to. `link`: to the frame store, a pixel a cycle of the units' clock.
+  SpanUnitModule(const sc_core::sc_module_name& name, const SpanUnitParameters& parameters, std::uint32_t columns,
+                 std::uint32_t lines, stream::Link& link);
 
   std::uint64_t loads_received() const { return loads_received_; }
-  // From the first frame's start to the end of the last triangle.
-  stream::Occupancy occupancy() const;
-  // Cycles of drawing that the memory took longer.
-  std::uint64_t memory_cycles() const { return occupancy_.blocked - blocked_by_buffer_; }
-  std::uint64_t buffer_cycles() const { return blocked_by_buffer_; }
+  // From the first frame's start to the end of the unit's last triangle; of each unit that triangles are dealt to, else
+  // of all together.
+  std::vector<stream::Occupancy> occupancies() const;
+  SpanCounters counters() const { return dealt_ ? dealt_->counters() : unit_.counters(); }
+  // Cycles that units waited for the memory, all together.
+  std::uint64_t memory_cycles() const;
   // When the last triangle ended.
   std::uint64_t end_ps() const { return clock_.picoseconds(Cycles(free_)); }
 
@@ -40,9 +44,11 @@ class SpanUnitModule : public sc_core::sc_module {
   void draw(LoadPayload& payload, sc_core::sc_time& delay);
   std::uint64_t set_free_ps() const;
   void draw_from(std::uint64_t cycle, const TriangleLoad& load);
+  std::uint64_t store(std::uint64_t begin_ps, const Span& span, const TriangleLoad& load);
 
   SpanUnitParameters parameters_;
-  SpanUnit& unit_;
+  SpanUnit unit_;
+  std::unique_ptr<DealtUnits> dealt_;
   Clock clock_;
   stream::Link& link_;
   frame_store::SpanPayload payload_;

@@ -27,11 +27,9 @@ void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
   frame_store.check(file, diagnostics);
   if (video.interlaced)
     diagnostics.add({file, 0, "video.interlaced", "this machine's frame store shows whole frames: false alone"});
-  if (stores_numbers())
-    diagnostics.add({file, 0, "span_unit.share",
-                     frame_store.depth_test
-                         ? "triangles dealt to several units are not simulated yet: \"columns\" alone"
-                         : "without a depth test triangles must be drawn in their order: \"columns\" alone"});
+  if (stores_numbers() && !frame_store.depth_test)
+    diagnostics.add(
+        {file, 0, "span_unit.share", "without a depth test triangles must be drawn in their order: \"columns\" alone"});
   try {
     video::timing(video);
   } catch (const InputError& error) {

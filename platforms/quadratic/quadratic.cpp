@@ -44,7 +44,8 @@ frame_store::FrameStore::Format store_format(const Machine& machine, const scene
   format.farthest = static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(machine.span_unit.depth_bits)));
   for (std::size_t c = 0; c < 3; ++c)
     format.background[c] = static_cast<std::uint8_t>(scene.background[static_cast<int>(c)]);
-  format.keep = observe ? frame_store::FrameStore::Keep::everything : frame_store::FrameStore::Keep::nothing;
+  using Keep = frame_store::FrameStore::Keep;
+  format.keep = observe ? Keep::everything : (machine.stores_numbers() ? Keep::numbers : Keep::nothing);
   return format;
 }
 
@@ -58,8 +59,6 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
       timing_(video::timing(machine.video)),
       cost_(host_of(machine), machine.span_unit.word_bits),
       resident_(resident_scene(machine, scene)),
-      unit_(machine.span_unit, static_cast<std::uint32_t>(machine.video.columns),
-            static_cast<std::uint32_t>(machine.video.lines)),
       store_(machine.frame_store, store_format(machine, scene, options.observe)) {
   check_scene();
   const geometry::LightingRules rules{
@@ -79,7 +78,9 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
                                            scene.camera.projection == scene::ProjectionKind::perspective,
                                            options.frames, [this](const auto& frame) { note_drawn(frame); }},
       bus);
-  span_unit_ = std::make_unique<span_unit::SpanUnitModule>("span_unit", machine.span_unit, unit_, pixels);
+  span_unit_ = std::make_unique<span_unit::SpanUnitModule>("span_unit", machine.span_unit,
+                                                           static_cast<std::uint32_t>(machine.video.columns),
+                                                           static_cast<std::uint32_t>(machine.video.lines), pixels);
   const std::uint64_t pixel_ps =
       machine.span_unit.clock().picoseconds(Cycles(static_cast<std::uint64_t>(machine.span_unit.pixel_cycles)));
   const auto units = static_cast<std::uint64_t>(machine.span_unit.units);
@@ -113,7 +114,7 @@ void Quadratic::note_drawn(const host::SetUpFrame& frame) {
   shown_.set_up = frame;
   shown_.drawn_ps = span_unit_->end_ps();
   shown_.first_pixel_ps = frame.shown_ps + timing_.clock.picoseconds(timing_.first_pixel(0));
-  const span_unit::SpanCounters& now = unit_.counters();
+  const span_unit::SpanCounters now = span_unit_->counters();
   shown_.drawn = {now.triangles - drawn_before_.triangles,     now.lines - drawn_before_.lines,
                   now.empty_lines - drawn_before_.empty_lines, now.carries - drawn_before_.carries,
                   now.pixels - drawn_before_.pixels,           now.off_screen - drawn_before_.off_screen};
@@ -150,11 +151,11 @@ void Quadratic::check_identities() const {
     if (a != b) throw ModelError(unit, 0, fmt::format("{}: {} is not {}", what, a, b));
   };
   set_up_processor_->occupancy().check("set-up processor");
-  span_unit_->occupancy().check("span unit");
+  for (const stream::Occupancy& unit : span_unit_->occupancies()) unit.check("span unit");
   const frame_store::StoreCounters& store = store_.counters();
   require("frame store", store.fragments_in, store.fragments_kept + store.fragments_hidden,
           "fragments in = kept + hidden");
-  require("frame store", store.fragments_in, unit_.counters().pixels, "fragments in = pixels drawn");
+  require("frame store", store.fragments_in, span_unit_->counters().pixels, "fragments in = pixels drawn");
   std::uint64_t loads = 0;
   std::uint64_t words = 0;
   for (const ShownFrame& frame : frames_) {

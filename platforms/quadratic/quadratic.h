@@ -48,7 +48,6 @@ class Quadratic {
   const host::HostCost& cost() const { return cost_; }
   const host::SetUpWork& work() const { return *work_; }
   const host::SetUpProcessorModule& set_up_processor() const { return *set_up_processor_; }
-  const span_unit::SpanUnit& unit() const { return unit_; }
   const span_unit::SpanUnitModule& span_unit() const { return *span_unit_; }
   const frame_store::FrameStore& store() const { return store_; }
   const frame_store::FrameStoreModule& frame_store() const { return *frame_store_; }
@@ -70,7 +69,6 @@ class Quadratic {
   host::HostCost cost_;
   host::ResidentScene resident_;
   std::unique_ptr<host::SetUpWork> work_;
-  span_unit::SpanUnit unit_;
   frame_store::FrameStore store_;
   std::deque<stream::Link> links_;
 

@@ -22,7 +22,9 @@ double screen_pixels(const Quadratic& platform) {
 // Clocks of a frame's triangles in the span unit.
 double span_seconds(const Quadratic& platform) {
   const Clock clock = platform.machine().span_unit.clock();
-  const double cycles = static_cast<double>(platform.span_unit().occupancy().busy);
+  std::uint64_t busiest = 0;
+  for (const stream::Occupancy& unit : platform.span_unit().occupancies()) busiest = std::max(busiest, unit.busy);
+  const auto cycles = static_cast<double>(busiest);
   return cycles / clock.frequency_hz() / static_cast<double>(platform.frames().size());
 }
 
@@ -51,7 +53,10 @@ std::vector<UnitFigures> unit_figures(const Quadratic& platform) {
     units.push_back({name, hz, o.cycles, o.busy, o.starved, o.blocked, o.idle});
   };
   add("set-up processor", platform.cost().clock().frequency_hz(), platform.set_up_processor().occupancy());
-  add("span unit", platform.machine().span_unit.clock().frequency_hz(), platform.span_unit().occupancy());
+  const std::vector<stream::Occupancy> spans = platform.span_unit().occupancies();
+  for (std::size_t k = 0; k < spans.size(); ++k)
+    add(spans.size() > 1 ? fmt::format("span unit {}", k) : std::string("span unit"),
+        platform.machine().span_unit.clock().frequency_hz(), spans[k]);
   // In accesses, to the end of the last frame's drawing; what no one asked for is idle.
   const frame_store::FrameStoreModule& store = platform.frame_store();
   const std::uint64_t access = platform.machine().frame_store.access_ps();
@@ -122,7 +127,7 @@ std::vector<Budget> quadratic_budgets(const Quadratic& platform) {
   const quadratic::Machine& m = platform.machine();
   const FrameLoad load = frame_load(platform);
   const double frame_us = 1e6 / m.video.refresh_hz;
-  const double units = static_cast<double>(m.span_unit.share == span_unit::Share::columns ? m.span_unit.units : 1);
+  const auto units = static_cast<double>(m.span_unit.units);
   const double pixel_us = m.span_unit.clock_ns * 1e-3 * static_cast<double>(m.span_unit.pixel_cycles) / units;
   const double screen = screen_pixels(platform);
   std::vector<Budget> budgets;

@@ -54,8 +54,9 @@ TEST_F(QuadraticInputTest, FixedFormatsThatItHasNot) {
   refused("[set_up]\narithmetic = \"fixed\"\nfixed_fraction_bits = 30\n",
           {"set_up.fixed_fraction_bits: ", "accepted: 16, 24, 32, 40, 48"});
 }
-TEST_F(QuadraticInputTest, UnitsThatTrianglesAreDealtTo) {
-  refused("[span_unit]\nunits = 2\nshare = \"triangles\"\n", {"span_unit.share: "});
+TEST_F(QuadraticInputTest, TrianglesDealtOutOfTheirOrder) {
+  refused("[span_unit]\nunits = 2\nshare = \"triangles\"\n[frame_store]\ndepth_test = false\n",
+          {"span_unit.share: ", "in their order"});
 }
 TEST_F(QuadraticInputTest, ColoursThatAreNoNumbers) {
   const Outcome outcome =

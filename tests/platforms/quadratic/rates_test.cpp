@@ -6,6 +6,7 @@
 
 #include "modules/host/cost_model.h"
 #include "tests/platforms/quadratic/screens.h"
+#include "tests/support/forked.h"
 
 namespace rastertlm::test {
 namespace {
@@ -97,28 +98,28 @@ TEST(Rates, ClearingTakesItsWrites) {
   EXPECT_NEAR(frames_per_second(machine, scene), 1e3 / 55.0, 0.01);
 }
 
-// The set-up processor and the span unit as two stages with `sets` places between them: what each triangle's set-up,
-// writing and drawing take, in picoseconds.
+// The set-up processor and span units, to which triangles are dealt, as two stages with `sets` places between them:
+// what each triangle's set-up, writing and drawing take, in picoseconds.
 struct Work {
   std::uint64_t computing, writing, drawing;
 };
 
-std::uint64_t drawn_by(const std::vector<Work>& work, std::size_t sets) {
+std::uint64_t drawn_by(const std::vector<Work>& work, std::size_t sets, std::size_t units) {
   std::vector<std::uint64_t> start(work.size()), end(work.size());
   std::uint64_t processor = 0;
   for (std::size_t i = 0; i < work.size(); ++i) {
     processor += work[i].computing;
     std::uint64_t set_free = 0;
-    if (sets == 0 && i > 0) set_free = end[i - 1];
-    if (sets > 0 && i >= sets) set_free = start[i - sets];
+    if (sets == 0 && i >= units) set_free = end[i - units];
+    if (sets > 0 && i >= sets * units) set_free = start[i - sets * units];
     processor = std::max(processor, set_free) + work[i].writing;
-    start[i] = std::max(processor, i > 0 ? end[i - 1] : 0);
+    start[i] = std::max(processor, i >= units ? end[i - units] : 0);
     end[i] = start[i] + work[i].drawing;
   }
-  return end.back();
+  return *std::max_element(end.begin(), end.end());
 }
 
-class Overlap : public testing::TestWithParam<std::int64_t> {};
+class Overlap : public testing::TestWithParam<std::pair<std::int64_t, std::int64_t>> {};  // shadow sets, units
 
 // All clocks are 50 ns, so that nobody waits for an edge.
 TEST_P(Overlap, OfSetUpAndDrawingIsTheClosedForm) {
@@ -131,7 +132,10 @@ TEST_P(Overlap, OfSetUpAndDrawingIsTheClosedForm) {
   machine.host.clock_hz = 20'000'000;
   machine.host.sustained_mflops = 8.0;
   machine.host.bus_cycles_per_word = 20;
-  machine.span_unit.shadow_sets = GetParam();
+  const auto [sets, units] = GetParam();
+  machine.span_unit.shadow_sets = sets;
+  machine.span_unit.units = units;
+  machine.span_unit.share = span_unit::Share::triangles;
   quadratic::Quadratic platform(machine, scene, {1, false}, {});
 
   host::ResidentScene resident;
@@ -154,10 +158,53 @@ TEST_P(Overlap, OfSetUpAndDrawingIsTheClosedForm) {
   }
   ASSERT_GT(work.size(), 50U);
   platform.run();
-  EXPECT_EQ(platform.span_unit().end_ps(), drawn_by(work, static_cast<std::size_t>(GetParam())));
+  EXPECT_EQ(platform.span_unit().end_ps(),
+            drawn_by(work, static_cast<std::size_t>(sets), static_cast<std::size_t>(units)));
 }
 
-INSTANTIATE_TEST_SUITE_P(ShadowSets, Overlap, testing::Values(0, 1, 2, 5));
+INSTANTIATE_TEST_SUITE_P(ShadowSets, Overlap,
+                         testing::Values(std::pair(0, 1), std::pair(1, 1), std::pair(2, 1), std::pair(5, 1),
+                                         std::pair(0, 2), std::pair(1, 2), std::pair(3, 2), std::pair(1, 5)));
+
+// Whoever draws, and in whatever order: the nearest stays, and of equal depths the lower number.
+TEST(DealtUnits, ShowWhatOneUnitShows) {
+  constexpr double kSide = 128;
+  std::mt19937_64 random(8);
+  const auto at = [&] { return std::uniform_real_distribution<double>(0, kSide - 1)(random); };
+  scene::Scene scene = screen_scene(kSide);
+  for (int i = 0; i < 80; ++i)
+    add_triangle(scene, kSide, kSide, {at(), at()}, {at(), at()}, {at(), at()}, static_cast<double>(random() % 3));
+  const auto shown = [&](std::int64_t units) {
+    return in_child([&] {
+      quadratic::Machine machine = span_unit_alone(128, 128);
+      machine.span_unit.units = units;
+      machine.span_unit.share = span_unit::Share::triangles;
+      machine.frame_store.access_ns = 40.0;
+      std::string bytes;
+      quadratic::Quadratic platform(machine, scene, {1, true}, [&](const auto&, const frame::Frame& frame) {
+        bytes.assign(frame.rgb.begin(), frame.rgb.end());
+        for (const auto* plane : {&frame.object, &frame.depth, &frame.coverage})
+          for (const std::uint32_t word : *plane) bytes += std::to_string(word) + ' ';
+      });
+      platform.run();
+      return bytes;
+    });
+  };
+  const std::string one = shown(1);
+  EXPECT_TRUE(one == shown(2));
+  EXPECT_TRUE(one == shown(7));
+}
+
+// Two units of 50 ns a pixel ask for more than one memory gives: they are as fast as that.
+TEST(DealtUnits, ShareTheMemory) {
+  const scene::Scene scene = thousand_screen();
+  quadratic::Machine machine = span_unit_alone(1000, 1000);
+  machine.span_unit.units = 2;
+  machine.span_unit.share = span_unit::Share::triangles;
+  machine.frame_store.access_ns = 20.0;
+  machine.frame_store.width_bits = 128;  // depth, colour and number: a read and a write, 40 ns a pixel
+  EXPECT_NEAR(frames_per_second(machine, scene), 25.0, 0.1);
+}
 
 }  // namespace
 }  // namespace rastertlm::test
