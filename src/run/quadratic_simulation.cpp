@@ -62,7 +62,9 @@ FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown
 
 class ExactPictures {
  public:
-  ExactPictures(const quadratic::Machine& machine, const scene::Scene& scene) : scene_(scene) {
+  // A machine that takes what lights see from the surface has the true model for its own.
+  ExactPictures(const quadratic::Machine& machine, const scene::Scene& scene)
+      : scene_(scene), perspective_(machine.set_up.attributes == set_up::Attributes::perspective) {
     options_.columns = machine.viewport().columns;
     options_.lines = machine.viewport().lines;
     options_.grids = host::span_grids(machine.viewport(), static_cast<int>(machine.set_up.snap_bits));
@@ -71,7 +73,7 @@ class ExactPictures {
   std::vector<reference::ErrorFigures> errors(const scene::Pose& pose, const frame::Frame& shown) {
     std::vector<reference::ErrorFigures> errors;
     for (auto& [kind, picture] : pictures_) {
-      options_.kind = kind;
+      options_.kind = perspective_ ? reference::Reference::true_model : kind;
       picture = reference::render(scene_, pose, options_);
       errors.push_back(reference::compare(shown, picture, reference::to_string(kind)));
     }
@@ -90,6 +92,7 @@ class ExactPictures {
   }
 
   const scene::Scene& scene_;
+  bool perspective_;
   reference::RenderOptions options_;
   std::array<std::pair<reference::Reference, frame::ExactFrame>, 2> pictures_{
       {{reference::Reference::ideal, {}}, {reference::Reference::true_model, {}}}};

@@ -148,8 +148,7 @@ class Units {
       const std::uint64_t before = units_[k].operations().flops();
       for (const host::Load& load : units_[k].set_up(guarded, placed[k])) {
         const std::size_t number = result.units[k].writes.size();
-        result.units[k].writes.push_back(
-            {load, units_[k].before()[number].flops(), load.park ? kParkWords : kWords});
+        result.units[k].writes.push_back({load, units_[k].before()[number].flops(), load.park ? kParkWords : kWords});
         result.units[k].words += result.units[k].writes.back().words;
       }
       result.units[k].second_flops = units_[k].operations().flops() - before;
