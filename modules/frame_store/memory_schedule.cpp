@@ -29,8 +29,10 @@ MemoryLayout MemoryLayout::of(const FrameStoreParameters& parameters, std::uint6
 
 std::uint64_t MemoryLayout::accesses(std::uint64_t column, std::uint64_t count, std::uint64_t words_each) const {
   if (count == 0) return 0;
-  const std::uint64_t groups = (column + count - 1) / pixels_a_word - column / pixels_a_word + 1;
-  return ceil_of(groups, banks) * words_each;
+  // Divisions are dear, and most machines need none.
+  const std::uint64_t groups =
+      pixels_a_word == 1 ? count : (column + count - 1) / pixels_a_word - column / pixels_a_word + 1;
+  return (banks == 1 ? groups : ceil_of(groups, banks)) * words_each;
 }
 
 std::uint64_t MemoryLayout::span_accesses(std::uint64_t column, std::uint64_t count, std::uint64_t kept,

@@ -24,7 +24,7 @@ std::int64_t first_sample(std::int64_t steps, int fraction_bits) {
 // The word nearest to `value` * 2^fraction_bits, modulo 2^64. Large ones are whole numbers, and so are their
 // remainders.
 std::uint64_t to_word(double value, unsigned fraction_bits) {
-  const double scaled = std::ldexp(value, static_cast<int>(fraction_bits));
+  const double scaled = value * static_cast<double>(std::uint64_t{1} << fraction_bits);
   if (std::fabs(scaled) < 0x1p62) return static_cast<std::uint64_t>(round_half_up(scaled));
   if (!std::isfinite(scaled)) return 0;
   const double rest = std::fmod(scaled, 0x1p64);

@@ -41,7 +41,7 @@ void SpanUnit::step_line(bool carries) {
 std::uint64_t SpanUnit::cycles_of(const Line& line) const {
   const std::int64_t units = parameters_.share == Share::columns ? parameters_.units : 1;
   const std::int64_t pixels = std::max<std::int64_t>(std::min(line.end, columns_) - line.first, 0);
-  const std::int64_t most = (pixels + units - 1) / units;
+  const std::int64_t most = units == 1 ? pixels : (pixels + units - 1) / units;
   const bool extra = line.carries && lattice_ && parameters_.carry == Carry::clock;
   return static_cast<std::uint64_t>(std::max<std::int64_t>(most * parameters_.pixel_cycles, 1) + (extra ? 1 : 0));
 }
@@ -50,7 +50,8 @@ std::uint64_t SpanUnit::cycles_of(const Line& line) const {
 void SpanUnit::prestep(const Line& line, PixelRequest& request) const {
   const auto bits = static_cast<unsigned>(parameters_.prestep_bits);
   const auto word = static_cast<unsigned>(parameters_.word_bits);
-  const std::int64_t f = round_half_up(line.distance * static_cast<double>(std::int64_t{1} << bits));
+  const double distance = static_cast<double>(line.rest) / static_cast<double>(line.divisor);
+  const std::int64_t f = round_half_up(distance * static_cast<double>(std::int64_t{1} << bits));
   const std::int64_t rest = (std::int64_t{1} << bits) - f;
   const auto times = [](std::int64_t value, std::int64_t factor, unsigned down) { return (value * factor) >> down; };
   for (auto& channel : request.colour) {

@@ -49,7 +49,8 @@ class SpanUnit {
     std::int64_t first;  // column, may be left of the screen
     std::int64_t end;
     bool carries;
-    double distance;  // prestep: from the edge to the first column, 0..1
+    std::int64_t rest;  // over divisor: from the edge to the first column, 0..1
+    std::int64_t divisor;
   };
   // The running registers of the start edge.
   struct State {
@@ -96,8 +97,7 @@ void SpanUnit::draw(const TriangleLoad& triangle, const Sink& sink) {
         step_line(carries);
       }
       if (k > 0 || (h == 1 && !goes_on)) end.advance();
-      const double distance = static_cast<double>(start.rest) / static_cast<double>(start.divisor);
-      sink(pixels({half.first_line + k, start.column, end.column, carries, distance}));
+      sink(pixels({half.first_line + k, start.column, end.column, carries, start.rest, start.divisor}));
     }
   }
 }
