@@ -127,7 +127,7 @@ int run(std::size_t pairs) {
       "triangles   covered | simulated     plain  ratio |   ns/cov\n",
       plain::best_variant(), pairs);
   bool good = true;
-  for (const std::size_t triangles : {64, 1024}) {
+  for (const std::size_t triangles : {std::size_t{64}, std::size_t{1024}}) {
     const std::string row = test::in_child([&] { return measured(triangles, pairs); });
     fmt::print("{}\n", row);
     good = good && !row.starts_with("different");

@@ -172,7 +172,7 @@ TEST_F(SpanLoad, DepthErrsByHalfABitAStep) {
       continue;
     for (double& depth : t.depth) depth = uniform(1e6, 15e6);
     const double unit = std::ldexp(1.0, -t.fraction_bits);
-    const auto& [a, b, c] = t.corners;
+    const geometry::SnappedPoint a = t.corners[0], b = t.corners[1], c = t.corners[2];
     const double area = static_cast<double>(geometry::doubled_area(a, b, c)) * unit * unit;
     draw(t, {}, [&](const span_unit::Span& span) {
       for (std::uint32_t x = 0; x < span.count; ++x) {

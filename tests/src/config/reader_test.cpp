@@ -358,6 +358,7 @@ RC_GTEST_PROP(ReaderFuzz, AnyKeysAndValuesAreReadOrRefused, ()) {
   }
   std::vector<std::string> set;
   const int count = *rc::gen::inRange(0, 3);
+  set.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) set.push_back(*word + *word + "." + *word + "=" + *rc::gen::elementOf(values));
   try {
     for (const std::string& mistake : mistakes(text, set)) RC_ASSERT(mistake.find('\n') == std::string::npos);
