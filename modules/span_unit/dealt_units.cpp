@@ -77,8 +77,8 @@ bool DealtUnits::advance() {
 void DealtUnits::start(Unit& unit) {
   const std::uint64_t there = std::max(unit.waiting.front().written, unit.free);
   const std::uint64_t begin = std::max(there, buffer_free_);
-  unit.occupancy.starved += there - unit.free;
-  unit.occupancy.blocked += begin - there;
+  unit.cycles.starved += there - unit.free;
+  unit.cycles.blocked += begin - there;
   buffer_cycles_ += begin - there;
   unit.load = unit.waiting.front().load;
   unit.waiting.pop_front();
@@ -96,7 +96,7 @@ void DealtUnits::start(Unit& unit) {
   unit.levels.resize(unit.levels.size() + kSparePixels);
   unit.depths.resize(unit.depths.size() + kSparePixels);
   unit.cycle = begin + count(parameters_.load_cycles);
-  unit.occupancy.busy += count(parameters_.load_cycles);
+  unit.cycles.busy += count(parameters_.load_cycles);
   if (!unit.drawing()) unit.free = unit.cycle;
 }
 
@@ -105,26 +105,20 @@ void DealtUnits::draw_span(Unit& unit) {
   stored.span.levels = unit.levels.data() + stored.at;
   stored.span.depths = unit.depths.data() + stored.at;
   const std::uint64_t end = unit.cycle + stored.span.cycles;
-  unit.occupancy.busy += stored.span.cycles;
+  unit.cycles.busy += stored.span.cycles;
   std::uint64_t taken = end;
   if (stored.span.count > 0) {
     const std::uint64_t memory_end = store_(clock_.picoseconds(Cycles(unit.cycle)), stored.span, unit.load);
     taken = std::max(end, clock_.cycles_at(memory_end).count());
   }
-  unit.occupancy.blocked += taken - end;
+  unit.cycles.blocked += taken - end;
   unit.cycle = taken;
   if (unit.drawing()) {
     unit.cycle += count(parameters_.line_change_cycles);
-    unit.occupancy.busy += count(parameters_.line_change_cycles);
+    unit.cycles.busy += count(parameters_.line_change_cycles);
   } else {
     unit.free = unit.cycle;
   }
-}
-
-stream::Occupancy DealtUnits::occupancy(std::size_t unit) const {
-  stream::Occupancy all = units_[unit].occupancy;
-  all.cycles = units_[unit].free;
-  return all;
 }
 
 SpanCounters DealtUnits::counters() const {

@@ -8,9 +8,15 @@
 #include <vector>
 
 #include "modules/span_unit/span_unit.h"
-#include "modules/stream/occupancy.h"
 
 namespace rastertlm::span_unit {
+
+// Where a unit's cycles went: the three add up to the cycle at which its last triangle ended.
+struct UnitCycles {
+  std::uint64_t busy = 0;
+  std::uint64_t starved = 0;
+  std::uint64_t blocked = 0;
+};
 
 class DealtUnits {
  public:
@@ -30,7 +36,8 @@ class DealtUnits {
   std::uint64_t finish();
 
   std::size_t units() const { return units_.size(); }
-  stream::Occupancy occupancy(std::size_t unit) const;
+  const UnitCycles& cycles(std::size_t unit) const { return units_[unit].cycles; }
+  std::uint64_t end(std::size_t unit) const { return units_[unit].free; }
   // Cycles that units waited for the buffer, all together; the rest of blocked is the memory's.
   std::uint64_t buffer_cycles() const { return buffer_cycles_; }
   SpanCounters counters() const;
@@ -54,7 +61,7 @@ class DealtUnits {
     std::size_t next = 0;  // of spans; all have been drawn: the unit is free
     std::uint64_t cycle = 0;
     std::uint64_t free = 0;
-    stream::Occupancy occupancy;
+    UnitCycles cycles;
     bool drawing() const { return next < spans.size(); }
   };
 

@@ -128,7 +128,10 @@ std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, const Span& span, co
 std::vector<stream::Occupancy> SpanUnitModule::occupancies() const {
   std::vector<stream::Occupancy> all;
   if (dealt_) {
-    for (std::size_t unit = 0; unit < dealt_->units(); ++unit) all.push_back(dealt_->occupancy(unit));
+    for (std::size_t unit = 0; unit < dealt_->units(); ++unit) {
+      const UnitCycles& cycles = dealt_->cycles(unit);
+      all.push_back({dealt_->end(unit), cycles.busy, cycles.starved, cycles.blocked, 0});
+    }
     return all;
   }
   all.push_back(occupancy_);
