@@ -32,7 +32,8 @@ void FrameStore::clear() {
     std::fill(plane->begin(), plane->end(), 0U);
 }
 
-std::uint32_t FrameStore::draw(const span_unit::Span& span, std::uint32_t object, std::uint32_t material) {
+std::uint32_t FrameStore::draw(const span_unit::Span& span, std::uint32_t object, std::uint32_t material,
+                               std::uint64_t* won) {
   Buffer& buffer = buffers_[drawn_];
   const std::size_t at = std::size_t{span.line} * format_.columns + span.column;
   StoreRequest request;
@@ -42,6 +43,7 @@ std::uint32_t FrameStore::draw(const span_unit::Span& span, std::uint32_t object
   request.object = object;
   request.material = material;
   request.test = parameters_.depth_test;
+  request.won = won;
   request.stored_levels = buffer.levels.data() + at;
   request.stored_depths = buffer.depth.data() + at;
   if (!buffer.objects.empty()) {

@@ -41,8 +41,10 @@ class FrameStore {
   // Of the picture that is drawn: nothing everywhere.
   void clear();
   // Strictly smaller depth wins; equal depth keeps the lower object where numbers are kept, else the first. Without a
-  // depth test what comes last stays. Returns how many pixels won.
-  std::uint32_t draw(const span_unit::Span& span, std::uint32_t object, std::uint32_t material);
+  // depth test what comes last stays. Returns how many pixels won; `won`, where given, a bit a pixel which: from the
+  // lowest on, in as many words as hold them.
+  std::uint32_t draw(const span_unit::Span& span, std::uint32_t object, std::uint32_t material,
+                     std::uint64_t* won = nullptr);
   // What was drawn is shown; where there are two buffers, the other one is drawn.
   void swap();
 

@@ -31,6 +31,8 @@ FrameStoreModule::FrameStoreModule(const sc_core::sc_module_name& name, const Fr
       link_(link),
       quick_(keeps_up(parameters, layout, pixel_ps)) {
   rgb_.resize(layout.columns);
+  constexpr std::size_t kBits = 64;
+  if (layout.asks_which_won()) won_.resize((layout.columns + kBits - 1) / kBits);
   in.register_b_transport(this, &FrameStoreModule::receive);
 }
 
@@ -46,33 +48,38 @@ void FrameStoreModule::receive(SpanPayload& payload, sc_core::sc_time& delay) {
   }
 }
 
-// The frame may be drawn when its buffer is free and has been cleared.
+// The frame may be drawn when its buffer is free and has been cleared. Where it is not, what stands there stays: with a
+// depth test, what was nearer as well.
 void FrameStoreModule::begin_frame(sc_core::sc_time& delay) {
   const std::uint64_t now = stream::picoseconds_now();
   std::uint64_t free = std::max<std::uint64_t>(now + delay.value(), buffer_free_ps_);
   if (parameters_.clear) {
     clear_accesses_ += layout_.clear_accesses();
     free = schedule_.serve(free, layout_.clear_accesses());
+    store_.clear();
   }
-  store_.clear();
   delay = stream::to_time(free - now);
 }
 
 void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay) {
   const span_unit::Span& span = *payload.span;
-  const std::uint32_t kept = store_.draw(span, payload.object, payload.material);
-  const std::uint64_t accesses = layout_.span_accesses(span.column, span.count, kept, parameters_.depth_test);
+  std::uint64_t* const won = won_.empty() ? nullptr : won_.data();
+  const std::uint32_t kept = store_.draw(span, payload.object, payload.material, won);
+  const std::uint64_t accesses = layout_.span_accesses(span.column, span.count, kept, won);
   drawing_accesses_ += accesses;
   if (quick_) return;
   const std::uint64_t now = stream::picoseconds_now();
   delay = stream::to_time(schedule_.serve(now + delay.value(), accesses) - now);
 }
 
-// Two buffers: the other one is free to be drawn when this one is shown. One: at once.
+// Two buffers: the other one is free to be drawn when this one is shown. One: when the screen has shown it once, whole;
+// or at once where it does not wait for the screen, which then shows it half drawn as well.
 void FrameStoreModule::end_frame(SpanPayload& payload, const sc_core::sc_time& delay) {
   const std::uint64_t drawn = stream::picoseconds_now() + delay.value();
-  payload.shown_ps = parameters_.swap == Swap::retrace ? retrace_from(drawn) : drawn;
-  buffer_free_ps_ = parameters_.buffers == 2 ? payload.shown_ps : drawn;
+  const bool waits = parameters_.swap == Swap::retrace;
+  payload.shown_ps = waits ? retrace_from(drawn) : drawn;
+  const bool once_shown = waits && parameters_.buffers == 1;
+  buffer_free_ps_ = once_shown ? retrace_from(payload.shown_ps + 1) : payload.shown_ps;
   store_.swap();
   scan_out(payload.frame, payload.shown_ps);
 }

@@ -5,6 +5,7 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include <systemc>
+#include <vector>
 
 #include "modules/frame_store/frame_store.h"
 #include "modules/frame_store/memory_schedule.h"
@@ -21,13 +22,17 @@ class FrameStoreModule : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<FrameStoreModule, stream::kNoBusWidth, stream::RgbProtocol> out;
 
   // `pixel_ps`: the span unit's time a pixel; where the memory takes no longer for any span, spans are not scheduled
-  // one by one. `link`: to the screen.
+  // one by one. 0 where several units send spans of their own, which wait for each other. `link`: to the screen.
   FrameStoreModule(const sc_core::sc_module_name& name, const FrameStoreParameters& parameters, FrameStore& store,
                    const MemoryLayout& layout, const video::Timing& timing, std::uint64_t pixel_ps, stream::Link& link);
 
-  // Memory accesses of spans and clears, and of lines read through the same port, so far.
+  // Memory accesses of spans and clears so far, and of lines that were due to be read through the same port before
+  // then; of the busiest bank.
   std::uint64_t drawing_accesses() const { return drawing_accesses_; }
   std::uint64_t clear_accesses() const { return clear_accesses_; }
+  std::uint64_t scan_out_accesses(std::uint64_t until_ps) const {
+    return schedule_.bursts_before(until_ps) * layout_.line_accesses();
+  }
   const MemorySchedule& schedule() const { return schedule_; }
   bool never_waited_for() const { return quick_; }
 
@@ -46,6 +51,7 @@ class FrameStoreModule : public sc_core::sc_module {
   MemorySchedule schedule_;
   stream::Link& link_;
   bool quick_;
+  std::vector<std::uint64_t> won_;  // of a span, a bit a pixel; empty where nobody asks
   frame::RgbLine rgb_;
   frame::FragmentLine fragments_;  // observers of this store look at it as a whole
   stream::RgbPayload payload_;

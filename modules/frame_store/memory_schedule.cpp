@@ -1,45 +1,12 @@
 #include "modules/frame_store/memory_schedule.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 namespace rastertlm::frame_store {
-namespace {
-
-std::uint64_t ceil_of(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
-
-}  // namespace
-
-MemoryLayout MemoryLayout::of(const FrameStoreParameters& parameters, std::uint64_t columns, std::uint64_t lines,
-                              unsigned depth_bits, bool ties) {
-  MemoryLayout layout;
-  layout.columns = columns;
-  layout.lines = lines;
-  layout.banks = static_cast<std::uint64_t>(parameters.banks);
-  const auto width = static_cast<std::uint64_t>(parameters.width_bits);
-  const std::uint64_t tested = parameters.depth_test ? depth_bits + (ties ? kTieBits : 0U) : 0U;
-  const std::uint64_t pixel = tested + kColourBits;
-  layout.pixels_a_word = std::max<std::uint64_t>(width / pixel, 1);
-  layout.depth_words = parameters.depth_test ? ceil_of(tested, width) : 0;
-  layout.write_words = ceil_of(pixel, width);
-  layout.colour_words = ceil_of(kColourBits, width);
-  return layout;
-}
-
-std::uint64_t MemoryLayout::accesses(std::uint64_t column, std::uint64_t count, std::uint64_t words_each) const {
-  if (count == 0) return 0;
-  // Divisions are dear, and most machines need none.
-  const std::uint64_t groups =
-      pixels_a_word == 1 ? count : (column + count - 1) / pixels_a_word - column / pixels_a_word + 1;
-  return (banks == 1 ? groups : ceil_of(groups, banks)) * words_each;
-}
-
-std::uint64_t MemoryLayout::span_accesses(std::uint64_t column, std::uint64_t count, std::uint64_t kept,
-                                          bool depth_test) const {
-  return (depth_test ? accesses(column, count, depth_words) : 0) + accesses(column, kept, write_words);
-}
-
 MemorySchedule::MemorySchedule(std::uint64_t access_ps, std::optional<video::Timing> timing, std::uint64_t lines,
                                std::uint64_t line_accesses)
     : access_ps_(access_ps),
@@ -47,6 +14,17 @@ MemorySchedule::MemorySchedule(std::uint64_t access_ps, std::optional<video::Tim
       lines_(lines),
       burst_ps_(line_accesses * access_ps),
       next_burst_ps_(timing_ ? burst_begin(0) : std::numeric_limits<std::uint64_t>::max()) {}
+
+std::uint64_t MemorySchedule::bursts_before(std::uint64_t picoseconds) const {
+  if (!timing_) return 0;
+  const std::uint64_t clocks = timing_->clock.cycles_at(picoseconds).count();
+  const std::uint64_t frame = timing_->frame.count();
+  const std::uint64_t within = clocks % frame;
+  const std::uint64_t retrace = timing_->vertical_retrace.count();
+  const std::uint64_t line = timing_->line.count();
+  const std::uint64_t begun = within <= retrace ? 0 : (within - retrace + line - 1) / line;
+  return clocks / frame * lines_ + std::min(lines_, begun);
+}
 
 std::uint64_t MemorySchedule::burst_begin(std::uint64_t number) const {
   const Cycles begins = timing_->frame * (number / lines_) + timing_->line_start(number % lines_);
@@ -75,6 +53,22 @@ std::uint64_t MemorySchedule::serve(std::uint64_t begin_ps, std::uint64_t access
   }
   served_ps_ += accesses * access_ps_;
   return now;
+}
+
+void check_scan_out(const FrameStoreParameters& parameters, const MemoryLayout& layout, const video::Timing& timing,
+                    const std::string& file, Diagnostics& diagnostics) {
+  if (parameters.scan_out == ScanOut::separate) return;
+  const std::uint64_t accesses = layout.line_accesses() + 1;  // one may have begun when the burst is due
+  const std::uint64_t line_ps = timing.clock.picoseconds(timing.line);
+  if (accesses * parameters.access_ps() <= line_ps) return;
+  constexpr double kNanosecond = 1e-3;
+  diagnostics.add(
+      {file, 0, "frame_store.scan_out",
+       fmt::format("a line of the screen asks for {} accesses of {} ns through the shared port, and one may "
+                   "be under way; a video line takes {:.6g} ns; at most {:.6g} ns an access would do, or "
+                   "wider words, more banks, or \"separate\"",
+                   accesses - 1, parameters.access_ns, static_cast<double>(line_ps) * kNanosecond,
+                   static_cast<double>(line_ps / accesses) * kNanosecond)});
 }
 
 }  // namespace rastertlm::frame_store

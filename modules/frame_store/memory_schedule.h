@@ -5,34 +5,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
+#include "modules/frame_store/memory_layout.h"
 #include "modules/frame_store/parameters.h"
 #include "modules/video/timing.h"
 
 namespace rastertlm::frame_store {
-
-// How pixels are laid out in words: depth and colour of a pixel side by side, pixels of a line in as few words as hold
-// them whole, or a pixel in several words; words of a line are dealt to the banks in turn.
-struct MemoryLayout {
-  std::uint64_t columns = 0;
-  std::uint64_t lines = 0;
-  std::uint64_t pixels_a_word = 1;  // 1 where a pixel takes several words
-  std::uint64_t depth_words = 1;    // read to test a pixel, or a word's pixels
-  std::uint64_t write_words = 1;    // written where one wins
-  std::uint64_t colour_words = 1;   // read to show it
-  std::uint64_t banks = 1;
-
-  static MemoryLayout of(const FrameStoreParameters& parameters, std::uint64_t columns, std::uint64_t lines,
-                         unsigned depth_bits, bool ties);
-
-  // Accesses of the busiest bank for `count` pixels from `column` on, so many accesses each word.
-  std::uint64_t accesses(std::uint64_t column, std::uint64_t count, std::uint64_t words_each) const;
-  // Of a span: everything is read where there is a depth test, and what holds a pixel that won is written. `kept`
-  // pixels that won are taken to lie together.
-  std::uint64_t span_accesses(std::uint64_t column, std::uint64_t count, std::uint64_t kept, bool depth_test) const;
-  std::uint64_t line_accesses() const { return accesses(0, columns, colour_words); }
-  std::uint64_t clear_accesses() const { return lines * accesses(0, columns, write_words); }
-};
 
 class MemorySchedule {
  public:
@@ -48,6 +27,8 @@ class MemorySchedule {
   std::uint64_t waited_ps() const { return waited_ps_; }
   // Of a video frame.
   std::uint64_t scan_out_ps() const { return timing_ ? lines_ * burst_ps_ : 0; }
+  // Bursts that have fallen due before then, since the start of the simulation.
+  std::uint64_t bursts_before(std::uint64_t picoseconds) const;
 
  private:
   std::uint64_t burst_begin(std::uint64_t number) const;
@@ -62,5 +43,11 @@ class MemorySchedule {
   std::uint64_t served_ps_ = 0;
   std::uint64_t waited_ps_ = 0;
 };
+
+// A screen that is read through the port that is drawn through must leave something of it: a line's reads, and an
+// access that has begun, take no longer than a line. Otherwise its lines would come late, and drawing would never be
+// served.
+void check_scan_out(const FrameStoreParameters& parameters, const MemoryLayout& layout, const video::Timing& timing,
+                    const std::string& file, Diagnostics& diagnostics);
 
 }  // namespace rastertlm::frame_store

@@ -20,12 +20,15 @@ void FrameStoreParameters::declare(parameter::Table& table) {
   table.real("frame_store.access_ns", access_ns, {0.001, 1e6}, About{"ns", "Time of one memory access.", rate});
   table.integer("frame_store.width_bits", width_bits, {8, 4096},
                 About{"bits", "Width of an access of one bank.", rate});
-  table.integer("frame_store.banks", banks, {1, 64},
+  table.integer("frame_store.banks", banks, {1, kMostBanks},
                 About{"banks", "Banks that work side by side, words dealt to them in turn along a line.", rate});
   table.integer("frame_store.buffers", buffers, {1, 2},
                 About{"buffers", "Pictures that the store holds: one is drawn while the other is shown.",
                       "memories[] frame store, " + rate});
-  table.boolean("frame_store.clear", clear, About{"", "The buffer is cleared before a frame is drawn.", rate});
+  table.boolean(
+      "frame_store.clear", clear,
+      About{"", "The buffer is cleared before a frame is drawn; otherwise what was drawn into it before stays.",
+            "the picture, " + rate});
   table.choice("frame_store.swap", swap, {"retrace", "completion"},
                About{"", "When a picture that has been drawn is shown.", rate});
   table.choice("frame_store.scan_out", scan_out, {"shared", "separate"},

@@ -15,6 +15,7 @@ enum class Swap { retrace, completion };
 // (video memory).
 enum class ScanOut { shared, separate };
 
+inline constexpr std::int64_t kMostBanks = 64;
 inline constexpr unsigned kColourBits = 24;
 inline constexpr unsigned kTieBits = 24;  // the triangle's number, where several units draw in any order
 

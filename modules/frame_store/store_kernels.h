@@ -24,6 +24,7 @@ struct StoreRequest {
   std::uint32_t* stored_depths = nullptr;
   std::uint32_t* stored_objects = nullptr;    // null: not kept
   std::uint32_t* stored_materials = nullptr;  // with objects
+  std::uint64_t* won = nullptr;               // a bit a pixel, from the lowest on: whether it won; null: nobody asks
 };
 
 struct StoreKernels {

@@ -31,7 +31,7 @@ void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
     diagnostics.add(
         {file, 0, "span_unit.share", "without a depth test triangles must be drawn in their order: \"columns\" alone"});
   try {
-    video::timing(video);
+    frame_store::check_scan_out(frame_store, layout(), video::timing(video), file, diagnostics);
   } catch (const InputError& error) {
     for (Diagnostic diagnostic : error.diagnostics()) {
       diagnostic.file = file;

@@ -81,8 +81,11 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
   span_unit_ = std::make_unique<span_unit::SpanUnitModule>("span_unit", machine.span_unit,
                                                            static_cast<std::uint32_t>(machine.video.columns),
                                                            static_cast<std::uint32_t>(machine.video.lines), pixels);
+  // Units with spans of their own wait for each other at the memory, however fast it is.
   const std::uint64_t pixel_ps =
-      machine.span_unit.clock().picoseconds(Cycles(static_cast<std::uint64_t>(machine.span_unit.pixel_cycles)));
+      machine.stores_numbers()
+          ? 0
+          : machine.span_unit.clock().picoseconds(Cycles(static_cast<std::uint64_t>(machine.span_unit.pixel_cycles)));
   const auto units = static_cast<std::uint64_t>(machine.span_unit.units);
   frame_store_ = std::make_unique<frame_store::FrameStoreModule>("frame_store", machine.frame_store, store_,
                                                                  machine.layout(), timing_, pixel_ps / units, screen);

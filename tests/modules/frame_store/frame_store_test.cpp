@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 namespace rastertlm::frame_store {
 namespace {
 
-constexpr std::uint32_t kColumns = 61;
+constexpr std::uint32_t kColumns = 141;
 constexpr std::uint32_t kLines = 7;
 
 struct Drawn {
@@ -36,7 +38,6 @@ class FrameStoreTest : public testing::TestWithParam<VectorVariant> {
         d.levels[x] = number(0, 0xFFFFFF);
         d.depths[x] = number(0, 30);
       }
-      d.levels.resize(d.levels.size());
       all.push_back(std::move(d));
     }
     return all;
@@ -108,6 +109,29 @@ TEST_P(FrameStoreTest, KeepsTheNearestInAnyOrder) {
     EXPECT_EQ(store.counters().fragments_in, in);
     EXPECT_EQ(store.counters().fragments_kept, kept);
     EXPECT_EQ(store.counters().fragments_hidden, in - kept);
+  }
+}
+
+// One pixel after the other, in the order in which they come.
+TEST_P(FrameStoreTest, SaysWhichPixelsWon) {
+  for (const bool test : {true, false}) {
+    FrameStoreParameters parameters;
+    parameters.depth_test = test;
+    FrameStore store(parameters, format(), GetParam());
+    std::vector<std::uint32_t> depth(kColumns * kLines, 0xFFFFFF), object(depth.size(), 0);
+    std::vector<Drawn> drawn = spans(300);
+    std::shuffle(drawn.begin(), drawn.end(), random_);
+    for (const Drawn& d : drawn) {
+      std::vector<std::uint64_t> won(kColumns / 64 + 1, 0xFACE);
+      store.draw(of(d), d.object, 0, won.data());
+      for (std::uint32_t x = 0; x < of(d).count; ++x) {
+        const std::size_t at = d.line * kColumns + d.column + x;
+        const bool wins = !test || d.depths[x] < depth[at] || (d.depths[x] == depth[at] && d.object < object[at]);
+        ASSERT_EQ((won[x / 64] >> x % 64 & 1) != 0, wins) << x;
+        if (wins) depth[at] = d.depths[x];
+        if (wins) object[at] = d.object;
+      }
+    }
   }
 }
 

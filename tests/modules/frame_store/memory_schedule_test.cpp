@@ -1,22 +1,14 @@
-// Does the memory serve in the order of the rules, and how many accesses does a span take?
+// Does the memory serve in the order of the rules, and is a screen refused that would take all of it?
 #include "modules/frame_store/memory_schedule.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "tests/modules/frame_store/small_screen.h"
+
 namespace rastertlm::frame_store {
 namespace {
-
-video::Timing small_screen() {
-  video::VideoParameters parameters;
-  parameters.columns = 20;
-  parameters.lines = 6;
-  parameters.refresh_hz = 20000;
-  parameters.pixel_clock_ns = 100;
-  parameters.vertical_retrace_us = 5;
-  return video::timing(parameters);
-}
 
 // Access by access: a burst that is due goes first.
 class ByAccess {
@@ -81,26 +73,43 @@ TEST(MemorySchedule, APortOfItsOwnWaitsForNobody) {
   EXPECT_EQ(schedule.served_ps(), 7 * 25'000U);
 }
 
-TEST(MemoryLayout, CountsTheAccessesOfTheBusiestBank) {
+// Counted one by one.
+TEST(MemorySchedule, KnowsHowManyLinesHaveBegun) {
+  const video::Timing timing = small_screen();
+  const MemorySchedule schedule(25'000, timing, 6, 30);
+  std::uint64_t begun = 0;
+  for (std::uint64_t clock = 0; clock < 3 * timing.frame.count(); ++clock) {
+    const std::uint64_t now = timing.clock.picoseconds(Cycles(clock));
+    ASSERT_EQ(schedule.bursts_before(now), begun) << "clock " << clock;
+    for (std::size_t line = 0; line < 6; ++line)
+      if (timing.line_start(line).count() == clock % timing.frame.count()) ++begun;
+    ASSERT_EQ(schedule.bursts_before(now + 1), begun) << "just after clock " << clock;
+  }
+  EXPECT_EQ(begun, 18U);
+  EXPECT_EQ(MemorySchedule(25'000, std::nullopt, 6, 30).bursts_before(1'000'000'000), 0U);
+}
+
+// A line is 7500 ns, its reads are 20 and one access may be under way: 357.142 ns fit, a picosecond more does not.
+TEST(MemorySchedule, ASharedPortMustHaveReadALineBeforeTheNext) {
   FrameStoreParameters parameters;
-  parameters.width_bits = 64;
-  const auto layout = [&] { return MemoryLayout::of(parameters, 512, 512, 24, false); };
-  EXPECT_EQ(layout().pixels_a_word, 1U);  // 48 bits
-  EXPECT_EQ(layout().span_accesses(3, 10, 4, true), 10U + 4);
-  EXPECT_EQ(layout().span_accesses(3, 10, 10, false), 10U);
-  parameters.width_bits = 96;
-  EXPECT_EQ(layout().pixels_a_word, 2U);
-  EXPECT_EQ(layout().span_accesses(3, 10, 0, true), 6U);  // 3, 4-5 ... 12
-  EXPECT_EQ(layout().span_accesses(4, 10, 0, true), 5U);
-  parameters.banks = 4;
-  EXPECT_EQ(layout().span_accesses(3, 10, 10, true), 2U + 2);
-  parameters.width_bits = 16;
+  const auto complaints = [&] {
+    Diagnostics diagnostics;
+    const MemoryLayout layout = MemoryLayout::of(parameters, 20, 6, 24, false);
+    check_scan_out(parameters, layout, small_screen(), "machine.toml", diagnostics);
+    return diagnostics.list();
+  };
+  parameters.scan_out = ScanOut::shared;
+  parameters.access_ns = 357.142;
+  EXPECT_TRUE(complaints().empty());
+  parameters.access_ns = 357.143;
+  ASSERT_EQ(complaints().size(), 1U);
+  EXPECT_EQ(complaints()[0].key, "frame_store.scan_out");
+  EXPECT_NE(complaints()[0].message.find("at most 357.142 ns"), std::string::npos) << complaints()[0].message;
+  parameters.banks = 2;
+  EXPECT_TRUE(complaints().empty());
   parameters.banks = 1;
-  EXPECT_EQ(layout().depth_words, 2U);
-  EXPECT_EQ(layout().write_words, 3U);
-  EXPECT_EQ(layout().span_accesses(0, 10, 10, true), 20U + 30);
-  EXPECT_EQ(layout().line_accesses(), 512U * 2);
-  EXPECT_EQ(layout().clear_accesses(), 512U * 512 * 3);
+  parameters.scan_out = ScanOut::separate;
+  EXPECT_TRUE(complaints().empty());
 }
 
 TEST(FrameStoreParameters, AccessTimesAreWholePicoseconds) {
