@@ -22,7 +22,7 @@ class FrameStoreModule : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<FrameStoreModule, stream::kNoBusWidth, stream::RgbProtocol> out;
 
   // `pixel_ps`: the span unit's time a pixel; where the memory takes no longer for any span, spans are not scheduled
-  // one by one. 0 where several units send spans of their own, which wait for each other. `link`: to the screen.
+  // one by one. Of several units that send spans of their own, divided by their number. `link`: to the screen.
   FrameStoreModule(const sc_core::sc_module_name& name, const FrameStoreParameters& parameters, FrameStore& store,
                    const MemoryLayout& layout, const video::Timing& timing, std::uint64_t pixel_ps, stream::Link& link);
 

@@ -81,11 +81,10 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
   span_unit_ = std::make_unique<span_unit::SpanUnitModule>("span_unit", machine.span_unit,
                                                            static_cast<std::uint32_t>(machine.video.columns),
                                                            static_cast<std::uint32_t>(machine.video.lines), pixels);
-  // Units with spans of their own wait for each other at the memory, however fast it is.
+  // Several units ask for a pixel each in a pixel's time, in turn: a memory that serves all of them in that time keeps
+  // none waiting.
   const std::uint64_t pixel_ps =
-      machine.stores_numbers()
-          ? 0
-          : machine.span_unit.clock().picoseconds(Cycles(static_cast<std::uint64_t>(machine.span_unit.pixel_cycles)));
+      machine.span_unit.clock().picoseconds(Cycles(static_cast<std::uint64_t>(machine.span_unit.pixel_cycles)));
   const auto units = static_cast<std::uint64_t>(machine.span_unit.units);
   frame_store_ = std::make_unique<frame_store::FrameStoreModule>("frame_store", machine.frame_store, store_,
                                                                  machine.layout(), timing_, pixel_ps / units, screen);
