@@ -9,83 +9,104 @@ FrameStore::FrameStore(const FrameStoreParameters& parameters, const Format& for
       format_(format),
       background_(format.background[0] | std::uint32_t{format.background[1]} << 8 |
                   std::uint32_t{format.background[2]} << 16),
-      kernels_(store_kernels(variant)) {
+      kernels_(store_kernels(variant)),
+      two_(parameters.buffers == 2 && !parameters.clear) {
   resize(buffers_[0]);
-  if (parameters.buffers == 2) resize(buffers_[1]);
+  if (two_) resize(buffers_[1]);
 }
 
 void FrameStore::resize(Buffer& buffer) const {
   const std::size_t pixels = std::size_t{format_.columns} * format_.lines + kSparePixels;
-  buffer.levels.assign(pixels, background_);
-  buffer.depth.assign(pixels, format_.farthest);
+  buffer.levels.resize(pixels);
+  buffer.depth.resize(pixels);
+  buffer.blank.assign(format_.lines, 1);
   if (format_.keep == Keep::nothing) return;
-  buffer.objects.assign(pixels, 0);
-  buffer.materials.assign(pixels, 0);
-  if (format_.keep == Keep::everything) buffer.coverage.assign(pixels, 0);
+  buffer.objects.resize(pixels);
+  buffer.materials.resize(pixels);
+  if (format_.keep == Keep::everything) buffer.coverage.resize(pixels);
 }
 
 void FrameStore::clear() {
   Buffer& buffer = buffers_[drawn_];
-  std::fill(buffer.levels.begin(), buffer.levels.end(), background_);
-  std::fill(buffer.depth.begin(), buffer.depth.end(), format_.farthest);
-  for (auto* plane : {&buffer.objects, &buffer.materials, &buffer.coverage})
-    std::fill(plane->begin(), plane->end(), 0U);
+  std::fill(buffer.blank.begin(), buffer.blank.end(), std::uint8_t{1});
 }
 
-std::uint32_t FrameStore::draw(const span_unit::Span& span, std::uint32_t object, std::uint32_t material,
+void FrameStore::begin_line(Buffer& buffer, std::size_t line) const {
+  buffer.blank[line] = 0;
+  const auto set = [&](std::vector<std::uint32_t>& plane, std::uint32_t value) {
+    if (!plane.empty()) std::fill_n(plane.data() + line * format_.columns, format_.columns, value);
+  };
+  set(buffer.levels, background_);
+  set(buffer.depth, format_.farthest);
+  for (auto* plane : {&buffer.objects, &buffer.materials, &buffer.coverage}) set(*plane, 0);
+}
+
+std::uint32_t FrameStore::draw(std::span<const span_unit::Span> spans, std::uint32_t object, std::uint32_t material,
                                std::uint64_t* won) {
   Buffer& buffer = buffers_[drawn_];
-  const std::size_t at = std::size_t{span.line} * format_.columns + span.column;
+  std::uint64_t pixels = 0;
+  for (const span_unit::Span& span : spans) {
+    if (span.count > 0 && buffer.blank[span.line] != 0) begin_line(buffer, span.line);
+    pixels += span.count;
+  }
   StoreRequest request;
-  request.levels = span.levels;
-  request.depths = span.depths;
-  request.count = span.count;
+  request.spans = spans.data();
+  request.count = spans.size();
+  request.pixels = format_.pixels;
   request.object = object;
   request.material = material;
   request.test = parameters_.depth_test;
-  request.won = won;
-  request.stored_levels = buffer.levels.data() + at;
-  request.stored_depths = buffer.depth.data() + at;
+  request.columns = format_.columns;
+  request.levels = buffer.levels.data();
+  request.depths = buffer.depth.data();
   if (!buffer.objects.empty()) {
     request.ties = true;
-    request.stored_objects = buffer.objects.data() + at;
-    request.stored_materials = buffer.materials.data() + at;
+    request.objects = buffer.objects.data();
+    request.materials = buffer.materials.data();
   }
-  const auto kept = static_cast<std::uint32_t>(kernels_.draw(request));
+  request.won = won;
+  const std::uint64_t kept = kernels_.draw(request);
   if (!buffer.coverage.empty())
-    for (std::size_t x = 0; x < span.count; ++x) ++buffer.coverage[at + x];
-  counters_.fragments_in += span.count;
+    for (const span_unit::Span& span : spans) {
+      std::uint32_t* const covered = buffer.coverage.data() + std::size_t{span.line} * format_.columns + span.column;
+      for (std::size_t x = 0; x < span.count; ++x) ++covered[x];
+    }
+  counters_.fragments_in += pixels;
   counters_.fragments_kept += kept;
-  counters_.fragments_hidden += span.count - kept;
-  return kept;
+  counters_.fragments_hidden += pixels - kept;
+  return static_cast<std::uint32_t>(kept);
 }
 
 void FrameStore::swap() {
-  if (parameters_.buffers == 2) drawn_ = 1 - drawn_;
+  if (two_) drawn_ = 1 - drawn_;
 }
 
 void FrameStore::scan_out(std::uint32_t line, frame::RgbLine& out) const {
-  const Buffer& buffer = buffers_[parameters_.buffers == 2 ? 1 - drawn_ : drawn_];
-  const std::uint32_t* __restrict levels = buffer.levels.data() + std::size_t{line} * format_.columns;
-  std::uint8_t* __restrict rgb = out.levels.data();
-  for (std::size_t x = 0; x < format_.columns; ++x) {
-    rgb[3 * x] = static_cast<std::uint8_t>(levels[x]);
-    rgb[3 * x + 1] = static_cast<std::uint8_t>(levels[x] >> 8);
-    rgb[3 * x + 2] = static_cast<std::uint8_t>(levels[x] >> 16);
+  const Buffer& buffer = shown();
+  if (buffer.blank[line] == 0) {
+    kernels_.pack(buffer.levels.data() + std::size_t{line} * format_.columns, format_.columns, out.levels.data());
+    return;
   }
+  for (std::size_t x = 0; x < format_.columns; ++x)
+    for (std::size_t c = 0; c < 3; ++c) out.levels[3 * x + c] = format_.background[c];
 }
 
 void FrameStore::observe(frame::Frame& out) const {
-  const Buffer& buffer = buffers_[parameters_.buffers == 2 ? 1 - drawn_ : drawn_];
-  const std::size_t pixels = std::size_t{format_.columns} * format_.lines;
-  const auto copy = [pixels](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
+  const Buffer& buffer = shown();
+  const std::size_t columns = format_.columns;
+  const auto copy = [&](const std::vector<std::uint32_t>& from, std::uint32_t blank, std::vector<std::uint32_t>& to) {
     if (from.empty()) return;
-    to.assign(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(pixels));
+    to.resize(columns * format_.lines);
+    for (std::size_t line = 0; line < format_.lines; ++line)
+      if (buffer.blank[line] != 0)
+        std::fill_n(to.data() + line * columns, columns, blank);
+      else
+        std::copy_n(from.data() + line * columns, columns, to.data() + line * columns);
   };
-  copy(buffer.depth, out.depth);
-  copy(buffer.objects, out.object);
-  copy(buffer.materials, out.material);
-  copy(buffer.coverage, out.coverage);
+  copy(buffer.depth, format_.farthest, out.depth);
+  copy(buffer.objects, 0, out.object);
+  copy(buffer.materials, 0, out.material);
+  copy(buffer.coverage, 0, out.coverage);
 }
 
 }  // namespace rastertlm::frame_store

@@ -3,11 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "modules/frame_store/parameters.h"
 #include "modules/frame_store/store_kernels.h"
-#include "modules/span_unit/span_unit.h"
+#include "modules/span_unit/span.h"
 #include "src/base/vector_variant.h"
 #include "src/frame/frame.h"
 #include "src/frame/scan_line.h"
@@ -33,6 +34,7 @@ class FrameStore {
     std::uint32_t lines = 512;
     std::uint32_t farthest = 0xFFFFFF;                // depth of nothing
     std::array<std::uint8_t, 3> background{0, 0, 0};  // levels of nothing
+    span_unit::PixelFormat pixels;                    // of the spans that are drawn
     Keep keep = Keep::everything;
   };
 
@@ -40,17 +42,17 @@ class FrameStore {
 
   // Of the picture that is drawn: nothing everywhere.
   void clear();
-  // Strictly smaller depth wins; equal depth keeps the lower object where numbers are kept, else the first. Without a
-  // depth test what comes last stays. Returns how many pixels won; `won`, where given, a bit a pixel which: from the
-  // lowest on, in as many words as hold them.
-  std::uint32_t draw(const span_unit::Span& span, std::uint32_t object, std::uint32_t material,
+  // Spans of a triangle, on the screen. Strictly smaller depth wins; equal depth keeps the lower object where numbers
+  // are kept, else the first. Without a depth test what comes last stays. Returns how many pixels won; `won`, where
+  // given and of a single span, a bit a pixel which: from the lowest on, in as many words as hold them.
+  std::uint32_t draw(std::span<const span_unit::Span> spans, std::uint32_t object, std::uint32_t material,
                      std::uint64_t* won = nullptr);
   // What was drawn is shown; where there are two buffers, the other one is drawn.
   void swap();
 
-  // Levels of a line that is shown.
+  // Levels of a line that is shown; until clear() or draw() begins the next picture, where a picture is cleared.
   void scan_out(std::uint32_t line, frame::RgbLine& out) const;
-  // What is shown, with what was kept.
+  // What is shown, with what was kept. Likewise.
   void observe(frame::Frame& out) const;
 
   const StoreCounters& counters() const { return counters_; }
@@ -61,14 +63,20 @@ class FrameStore {
     std::vector<std::uint32_t> objects;
     std::vector<std::uint32_t> materials;
     std::vector<std::uint32_t> coverage;
-    std::vector<std::uint32_t> depth;  // of the picture that is drawn; kept for observers of the one that is shown
+    std::vector<std::uint32_t> depth;
+    // Of lines into which nothing has been drawn since the last clear: their words are set when something is.
+    std::vector<std::uint8_t> blank;
   };
   void resize(Buffer& buffer) const;
+  void begin_line(Buffer& buffer, std::size_t line) const;
+  const Buffer& shown() const { return buffers_[two_ ? 1 - drawn_ : drawn_]; }
 
   FrameStoreParameters parameters_;
   Format format_;
   std::uint32_t background_;
   const StoreKernels& kernels_;
+  // A picture that is cleared before it is drawn leaves no trace of the last but one: then one buffer does for two.
+  bool two_;
   std::array<Buffer, 2> buffers_;
   std::size_t drawn_ = 0;  // the other, or the same where there is one, is shown
   StoreCounters counters_;

@@ -40,8 +40,8 @@ void FrameStoreModule::receive(SpanPayload& payload, sc_core::sc_time& delay) {
   payload.set_response_status(tlm::TLM_OK_RESPONSE);
   switch (payload.kind) {
     case SpanPayload::Kind::frame:
-      return begin_frame(delay);
-    case SpanPayload::Kind::span:
+      return begin_frame(payload, delay);
+    case SpanPayload::Kind::spans:
       return draw(payload, delay);
     case SpanPayload::Kind::end:
       return end_frame(payload, delay);
@@ -50,7 +50,8 @@ void FrameStoreModule::receive(SpanPayload& payload, sc_core::sc_time& delay) {
 
 // The frame may be drawn when its buffer is free and has been cleared. Where it is not, what stands there stays: with a
 // depth test, what was nearer as well.
-void FrameStoreModule::begin_frame(sc_core::sc_time& delay) {
+void FrameStoreModule::begin_frame(SpanPayload& payload, sc_core::sc_time& delay) {
+  payload.keeps_up = quick_;
   const std::uint64_t now = stream::picoseconds_now();
   std::uint64_t free = std::max<std::uint64_t>(now + delay.value(), buffer_free_ps_);
   if (parameters_.clear) {
@@ -62,14 +63,23 @@ void FrameStoreModule::begin_frame(sc_core::sc_time& delay) {
 }
 
 void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay) {
-  const span_unit::Span& span = *payload.span;
+  if (quick_ && won_.empty()) {
+    std::uint64_t pixels = 0;
+    for (const span_unit::Span& span : payload.spans) pixels += span.count;
+    const std::uint64_t kept = store_.draw(payload.spans, payload.object, payload.material);
+    drawing_accesses_ += layout_.span_accesses(0, pixels, kept, nullptr);
+    return;
+  }
   std::uint64_t* const won = won_.empty() ? nullptr : won_.data();
-  const std::uint32_t kept = store_.draw(span, payload.object, payload.material, won);
-  const std::uint64_t accesses = layout_.span_accesses(span.column, span.count, kept, won);
-  drawing_accesses_ += accesses;
-  if (quick_) return;
   const std::uint64_t now = stream::picoseconds_now();
-  delay = stream::to_time(schedule_.serve(now + delay.value(), accesses) - now);
+  std::uint64_t until = now + delay.value();
+  for (const span_unit::Span& span : payload.spans) {
+    const std::uint32_t kept = store_.draw({&span, 1}, payload.object, payload.material, won);
+    const std::uint64_t accesses = layout_.span_accesses(span.column, span.count, kept, won);
+    drawing_accesses_ += accesses;
+    if (!quick_) until = schedule_.serve(until, accesses);
+  }
+  delay = stream::to_time(until - now);
 }
 
 // Two buffers: the other one is free to be drawn when this one is shown. One: when the screen has shown it once, whole;

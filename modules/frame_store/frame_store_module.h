@@ -38,7 +38,7 @@ class FrameStoreModule : public sc_core::sc_module {
 
  private:
   void receive(SpanPayload& payload, sc_core::sc_time& delay);
-  void begin_frame(sc_core::sc_time& delay);
+  void begin_frame(SpanPayload& payload, sc_core::sc_time& delay);
   void draw(const SpanPayload& payload, sc_core::sc_time& delay);
   void end_frame(SpanPayload& payload, const sc_core::sc_time& delay);
   void scan_out(std::uint64_t frame, std::uint64_t shown_ps);

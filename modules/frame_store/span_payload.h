@@ -1,19 +1,23 @@
-// What crosses the links between a span unit and the frame store: one transaction a span.
+// What crosses the links between a span unit and the frame store: one transaction a triangle, or a span.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <tlm>
 
-#include "modules/span_unit/span_unit.h"
+#include "modules/span_unit/span.h"
 #include "modules/stream/line_payload.h"
 
 namespace rastertlm::frame_store {
 
 struct SpanPayload : tlm::tlm_generic_payload {
-  enum class Kind { frame, span, end };
-  Kind kind = Kind::span;
+  enum class Kind { frame, spans, end };
+  Kind kind = Kind::spans;
   std::uint64_t frame = 0;
-  const span_unit::Span* span = nullptr;  // span; its pixels are the unit's, for the call
+  // frame, set by the store: the memory takes pixels as fast as they can come. Spans of a triangle may then come in one
+  // transaction, which takes no time of its own; otherwise one by one, each when the last has been taken.
+  bool keeps_up = false;
+  std::span<const span_unit::Span> spans;  // spans, the sender's for the call
   std::uint32_t object = 0;
   std::uint32_t material = 0;
   std::uint64_t shown_ps = 0;  // end, set by the store: when the frame is shown

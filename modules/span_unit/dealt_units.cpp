@@ -17,7 +17,7 @@ DealtUnits::DealtUnits(const SpanUnitParameters& parameters, std::uint32_t colum
     : parameters_(parameters), clock_(parameters.clock()), store_(std::move(store)) {
   units_.reserve(count(parameters.units));
   for (std::int64_t k = 0; k < parameters.units; ++k)
-    units_.push_back({SpanUnit(parameters, columns, lines), {}, {}, {}, {}, {}, {}, 0, 0, 0, {}});
+    units_.push_back({SpanUnit(parameters, columns, lines), {}, {}, {}, {}, 0, 0, 0, {}});
 }
 
 // As many triangles may wait as there are shadow sets; without one the unit must have ended.
@@ -84,31 +84,21 @@ void DealtUnits::start(Unit& unit) {
   unit.waiting.pop_front();
   unit.starts_ps.push_back(clock_.picoseconds(Cycles(begin)));
   if (unit.starts_ps.size() > count(std::max<std::int64_t>(parameters_.shadow_sets, 1))) unit.starts_ps.pop_front();
-  unit.spans.clear();
-  unit.levels.clear();
-  unit.depths.clear();
+  const std::span<const Span> spans = unit.core.draw(unit.load);
+  unit.spans.assign(spans.begin(), spans.end());
   unit.next = 0;
-  unit.core.draw(unit.load, [&](const Span& span) {
-    unit.spans.push_back({span, unit.levels.size()});
-    unit.levels.insert(unit.levels.end(), span.levels, span.levels + span.count);
-    unit.depths.insert(unit.depths.end(), span.depths, span.depths + span.count);
-  });
-  unit.levels.resize(unit.levels.size() + kSparePixels);
-  unit.depths.resize(unit.depths.size() + kSparePixels);
   unit.cycle = begin + count(parameters_.load_cycles);
   unit.cycles.busy += count(parameters_.load_cycles);
   if (!unit.drawing()) unit.free = unit.cycle;
 }
 
 void DealtUnits::draw_span(Unit& unit) {
-  Stored& stored = unit.spans[unit.next++];
-  stored.span.levels = unit.levels.data() + stored.at;
-  stored.span.depths = unit.depths.data() + stored.at;
-  const std::uint64_t end = unit.cycle + stored.span.cycles;
-  unit.cycles.busy += stored.span.cycles;
+  const Span& span = unit.spans[unit.next++];
+  const std::uint64_t end = unit.cycle + span.cycles;
+  unit.cycles.busy += span.cycles;
   std::uint64_t taken = end;
-  if (stored.span.count > 0) {
-    const std::uint64_t memory_end = store_(clock_.picoseconds(Cycles(unit.cycle)), stored.span, unit.load);
+  if (span.count > 0) {
+    const std::uint64_t memory_end = store_(clock_.picoseconds(Cycles(unit.cycle)), span, unit.load);
     taken = std::max(end, clock_.cycles_at(memory_end).count());
   }
   unit.cycles.blocked += taken - end;
@@ -123,15 +113,7 @@ void DealtUnits::draw_span(Unit& unit) {
 
 SpanCounters DealtUnits::counters() const {
   SpanCounters sum;
-  for (const Unit& unit : units_) {
-    const SpanCounters& c = unit.core.counters();
-    sum.triangles += c.triangles;
-    sum.lines += c.lines;
-    sum.empty_lines += c.empty_lines;
-    sum.carries += c.carries;
-    sum.pixels += c.pixels;
-    sum.off_screen += c.off_screen;
-  }
+  for (const Unit& unit : units_) sum += unit.core.counters();
   return sum;
 }
 

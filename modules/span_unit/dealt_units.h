@@ -47,18 +47,13 @@ class DealtUnits {
     TriangleLoad load;
     std::uint64_t written = 0;  // cycle
   };
-  struct Stored {  // a span of the triangle that is drawn; its pixels stand in the unit's
-    Span span;
-    std::size_t at = 0;
-  };
   struct Unit {
     SpanUnit core;
     std::deque<Waiting> waiting;
     std::deque<std::uint64_t> starts_ps;  // of the last triangles
     TriangleLoad load;
-    std::vector<Stored> spans;
-    std::vector<std::uint32_t> levels, depths;
-    std::size_t next = 0;  // of spans; all have been drawn: the unit is free
+    std::vector<Span> spans;  // of the triangle that is drawn
+    std::size_t next = 0;     // of spans; all have been drawn: the unit is free
     std::uint64_t cycle = 0;
     std::uint64_t free = 0;
     UnitCycles cycles;

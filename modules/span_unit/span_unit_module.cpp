@@ -21,7 +21,7 @@ SpanUnitModule::SpanUnitModule(const sc_core::sc_module_name& name, const SpanUn
   if (parameters.units > 1 && parameters.share == Share::triangles)
     dealt_ = std::make_unique<DealtUnits>(parameters, columns, lines,
                                           [this](std::uint64_t begin_ps, const Span& span, const TriangleLoad& load) {
-                                            return store(begin_ps, span, load);
+                                            return store(begin_ps, {&span, 1}, load);
                                           });
 }
 
@@ -43,6 +43,7 @@ void SpanUnitModule::begin_frame(LoadPayload&, sc_core::sc_time& delay) {
   payload_.kind = SpanPayload::Kind::frame;
   sc_core::sc_time until = delay;
   out->b_transport(payload_, until);
+  memory_keeps_up_ = payload_.keeps_up;
   buffer_free_ = clock_.cycles_at(stream::picoseconds_now() + until.value()).count();
   if (dealt_) dealt_->begin_frame(buffer_free_);
 }
@@ -87,38 +88,43 @@ void SpanUnitModule::draw(LoadPayload& payload, sc_core::sc_time& delay) {
 }
 
 void SpanUnitModule::draw_from(std::uint64_t cycle, const TriangleLoad& load) {
+  const std::span<const Span> spans = unit_.draw(load);
   const auto load_cycles = static_cast<std::uint64_t>(parameters_.load_cycles);
   const auto line_change = static_cast<std::uint64_t>(parameters_.line_change_cycles);
+  const std::uint64_t changes = spans.empty() ? 0 : (spans.size() - 1) * line_change;
+  std::uint64_t drawing = 0;
+  for (const Span& span : spans) drawing += span.cycles;
+  occupancy_.busy += load_cycles + changes + drawing;
+  if (memory_keeps_up_) {
+    store(clock_.picoseconds(Cycles(cycle)), spans, load);
+    free_ = cycle + load_cycles + changes + drawing;
+    return;
+  }
   cycle += load_cycles;
-  occupancy_.busy += load_cycles;
-  bool first = true;
-  unit_.draw(load, [&](const Span& span) {
-    if (!first) {
-      cycle += line_change;
-      occupancy_.busy += line_change;
-    }
-    first = false;
+  for (const Span& span : spans) {
+    if (&span != spans.data()) cycle += line_change;
     const std::uint64_t end = cycle + span.cycles;
-    occupancy_.busy += span.cycles;
     std::uint64_t taken = end;
     if (span.count > 0) {
       const std::uint64_t begin_ps = clock_.picoseconds(Cycles(cycle));
-      const std::uint64_t memory_end = store(begin_ps, span, load);
+      const std::uint64_t memory_end = store(begin_ps, {&span, 1}, load);
       if (memory_end > begin_ps) taken = std::max(end, clock_.cycles_at(memory_end).count());
     }
     occupancy_.blocked += taken - end;
     cycle = taken;
-  });
+  }
   free_ = cycle;
 }
 
-// Returns when the memory has taken the span.
-std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, const Span& span, const TriangleLoad& load) {
-  payload_.kind = SpanPayload::Kind::span;
-  payload_.span = &span;
+// Returns when the memory has taken the spans.
+std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, std::span<const Span> spans, const TriangleLoad& load) {
+  payload_.kind = SpanPayload::Kind::spans;
+  payload_.spans = spans;
   payload_.object = load.object;
   payload_.material = load.material;
-  link_.record(span.count, Cycles(span.count));
+  std::uint64_t pixels = 0;
+  for (const Span& span : spans) pixels += span.count;
+  link_.record(pixels, Cycles(pixels));
   const std::uint64_t now = stream::picoseconds_now();
   sc_core::sc_time until = stream::to_time(begin_ps - now);
   out->b_transport(payload_, until);

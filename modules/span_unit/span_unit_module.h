@@ -44,7 +44,7 @@ class SpanUnitModule : public sc_core::sc_module {
   void draw(LoadPayload& payload, sc_core::sc_time& delay);
   std::uint64_t set_free_ps() const;
   void draw_from(std::uint64_t cycle, const TriangleLoad& load);
-  std::uint64_t store(std::uint64_t begin_ps, const Span& span, const TriangleLoad& load);
+  std::uint64_t store(std::uint64_t begin_ps, std::span<const Span> spans, const TriangleLoad& load);
 
   SpanUnitParameters parameters_;
   SpanUnit unit_;
@@ -55,6 +55,7 @@ class SpanUnitModule : public sc_core::sc_module {
   std::uint64_t free_ = 0;               // cycle at which the last triangle ended
   std::uint64_t buffer_free_ = 0;        // cycle from which the frame may be drawn
   std::deque<std::uint64_t> starts_ps_;  // of the last shadow_sets triangles
+  bool memory_keeps_up_ = false;         // as the store has said for the frame
   std::uint64_t loads_received_ = 0;
   std::uint64_t blocked_by_buffer_ = 0;
   stream::Occupancy occupancy_;

@@ -44,6 +44,7 @@ frame_store::FrameStore::Format store_format(const Machine& machine, const scene
   format.farthest = static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(machine.span_unit.depth_bits)));
   for (std::size_t c = 0; c < 3; ++c)
     format.background[c] = static_cast<std::uint8_t>(scene.background[static_cast<int>(c)]);
+  format.pixels = span_unit::pixel_format(machine.span_unit);
   using Keep = frame_store::FrameStore::Keep;
   format.keep = observe ? Keep::everything : (machine.stores_numbers() ? Keep::numbers : Keep::nothing);
   return format;

@@ -1,2 +1,0 @@
-#define RASTERTLM_KERNELS pixel_kernels_baseline
-#include "modules/span_unit/pixel_kernels_body.inc"
