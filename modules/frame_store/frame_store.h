@@ -34,7 +34,7 @@ class FrameStore {
     std::uint32_t lines = 512;
     std::uint32_t farthest = 0xFFFFFF;                // depth of nothing
     std::array<std::uint8_t, 3> background{0, 0, 0};  // levels of nothing
-    span_unit::PixelFormat pixels;                    // of the spans that are drawn
+    span_unit::PixelFormat pixels{};                  // of the spans that are drawn
     Keep keep = Keep::everything;
   };
 

@@ -64,10 +64,8 @@ void FrameStoreModule::begin_frame(SpanPayload& payload, sc_core::sc_time& delay
 
 void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay) {
   if (quick_ && won_.empty()) {
-    std::uint64_t pixels = 0;
-    for (const span_unit::Span& span : payload.spans) pixels += span.count;
     const std::uint64_t kept = store_.draw(payload.spans, payload.object, payload.material);
-    drawing_accesses_ += layout_.span_accesses(0, pixels, kept, nullptr);
+    drawing_accesses_ += layout_.span_accesses(0, payload.pixels, kept, nullptr);
     return;
   }
   std::uint64_t* const won = won_.empty() ? nullptr : won_.data();

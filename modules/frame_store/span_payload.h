@@ -18,6 +18,7 @@ struct SpanPayload : tlm::tlm_generic_payload {
   // transaction, which takes no time of its own; otherwise one by one, each when the last has been taken.
   bool keeps_up = false;
   std::span<const span_unit::Span> spans;  // spans, the sender's for the call
+  std::uint64_t pixels = 0;                // of all of them
   std::uint32_t object = 0;
   std::uint32_t material = 0;
   std::uint64_t shown_ps = 0;  // end, set by the store: when the frame is shown

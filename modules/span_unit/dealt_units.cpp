@@ -84,7 +84,7 @@ void DealtUnits::start(Unit& unit) {
   unit.waiting.pop_front();
   unit.starts_ps.push_back(clock_.picoseconds(Cycles(begin)));
   if (unit.starts_ps.size() > count(std::max<std::int64_t>(parameters_.shadow_sets, 1))) unit.starts_ps.pop_front();
-  const std::span<const Span> spans = unit.core.draw(unit.load);
+  const std::span<const Span> spans = unit.core.draw(unit.load).spans;
   unit.spans.assign(spans.begin(), spans.end());
   unit.next = 0;
   unit.cycle = begin + count(parameters_.load_cycles);

@@ -2,7 +2,6 @@
 // a line's first pixel are those of figure 6 (span_registers.h, tested); whoever wants its pixels steps on from there.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,39 +22,43 @@ struct SpanCounters {
   SpanCounters& operator+=(const SpanCounters& other);
 };
 
+// A triangle's lines on the screen, in order; also those without a pixel, which take a clock. Pixels left of the screen
+// are stepped over, a clock each; a line ends at the screen's right edge.
+struct DrawnLines {
+  std::span<const Span> spans;
+  std::uint64_t pixels = 0;  // on the screen
+  std::uint64_t cycles = 0;  // of all lines, changes between them not counted in
+};
+
 class SpanUnit {
  public:
   SpanUnit(const SpanUnitParameters& parameters, std::uint32_t columns, std::uint32_t lines);
 
-  // Every line of the load, in order; also those without a pixel, which take a clock. Pixels left of the screen are
-  // stepped over, a clock each; the line ends at the screen's right edge. Valid until the next call.
-  std::span<const Span> draw(const TriangleLoad& triangle);
+  // Valid until the next call.
+  DrawnLines draw(const TriangleLoad& triangle);
 
   const SpanCounters& counters() const { return counters_; }
 
  private:
-  // The running registers at the start edge, a set of them each.
-  using Words = std::array<std::uint64_t, kRegisterSets>;
-  struct StartEdgeRegisters {
-    Words start{}, line_step{}, pixel_step{}, line_line{}, line_pixel{}, pixel_pixel{};
+  // Of a line whose first pixel on the screen is not where the registers stand.
+  struct Shift {
+    std::uint64_t skipped = 0;   // pixels left of the screen
+    std::int64_t rest_bits = 0;  // prestep: from the edge to the first pixel, in prestep_bits
   };
-  struct Edges {
-    EdgeWords start;
-    EdgeWords end;
-  };
-
-  void load(const HalfTriangle& half);
-  void step_line(bool carries);
-  void line(std::int64_t number, const Edges& edges, bool carries, Span& span);
-  void prestep(const EdgeWords& start, Span& span) const;
+  DrawnLines cross(const TriangleLoad& triangle, std::size_t lines);
+  void note_shift(std::size_t line, const EdgeWords& start, const EdgeWords& end);
+  void step(const TriangleLoad& triangle, std::size_t lines);
+  void shift(Span& span, const Shift& at) const;
 
   SpanUnitParameters parameters_;
   std::int64_t columns_;
   std::int64_t sharing_;  // units that share the columns
   bool lattice_;
   bool carry_takes_a_clock_;
-  StartEdgeRegisters registers_;
-  std::vector<Span> spans_;  // the first ones are the last triangle's
+  std::vector<Span> spans_;            // the first ones are the last triangle's
+  std::vector<std::uint8_t> carries_;  // of each: the registers make a second step
+  std::vector<Shift> shifts_;
+  bool shifted_ = false;  // some of the triangle's lines are
   SpanCounters counters_;
 };
 

@@ -21,7 +21,7 @@ SpanUnitModule::SpanUnitModule(const sc_core::sc_module_name& name, const SpanUn
   if (parameters.units > 1 && parameters.share == Share::triangles)
     dealt_ = std::make_unique<DealtUnits>(parameters, columns, lines,
                                           [this](std::uint64_t begin_ps, const Span& span, const TriangleLoad& load) {
-                                            return store(begin_ps, {&span, 1}, load);
+                                            return store(begin_ps, {{&span, 1}, span.count, span.cycles}, load);
                                           });
 }
 
@@ -88,26 +88,24 @@ void SpanUnitModule::draw(LoadPayload& payload, sc_core::sc_time& delay) {
 }
 
 void SpanUnitModule::draw_from(std::uint64_t cycle, const TriangleLoad& load) {
-  const std::span<const Span> spans = unit_.draw(load);
+  const DrawnLines drawn = unit_.draw(load);
   const auto load_cycles = static_cast<std::uint64_t>(parameters_.load_cycles);
   const auto line_change = static_cast<std::uint64_t>(parameters_.line_change_cycles);
-  const std::uint64_t changes = spans.empty() ? 0 : (spans.size() - 1) * line_change;
-  std::uint64_t drawing = 0;
-  for (const Span& span : spans) drawing += span.cycles;
-  occupancy_.busy += load_cycles + changes + drawing;
+  const std::uint64_t changes = drawn.spans.empty() ? 0 : (drawn.spans.size() - 1) * line_change;
+  occupancy_.busy += load_cycles + changes + drawn.cycles;
   if (memory_keeps_up_) {
-    store(clock_.picoseconds(Cycles(cycle)), spans, load);
-    free_ = cycle + load_cycles + changes + drawing;
+    store(clock_.picoseconds(Cycles(cycle)), drawn, load);
+    free_ = cycle + load_cycles + changes + drawn.cycles;
     return;
   }
   cycle += load_cycles;
-  for (const Span& span : spans) {
-    if (&span != spans.data()) cycle += line_change;
+  for (const Span& span : drawn.spans) {
+    if (&span != drawn.spans.data()) cycle += line_change;
     const std::uint64_t end = cycle + span.cycles;
     std::uint64_t taken = end;
     if (span.count > 0) {
       const std::uint64_t begin_ps = clock_.picoseconds(Cycles(cycle));
-      const std::uint64_t memory_end = store(begin_ps, {&span, 1}, load);
+      const std::uint64_t memory_end = store(begin_ps, {{&span, 1}, span.count, span.cycles}, load);
       if (memory_end > begin_ps) taken = std::max(end, clock_.cycles_at(memory_end).count());
     }
     occupancy_.blocked += taken - end;
@@ -117,14 +115,13 @@ void SpanUnitModule::draw_from(std::uint64_t cycle, const TriangleLoad& load) {
 }
 
 // Returns when the memory has taken the spans.
-std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, std::span<const Span> spans, const TriangleLoad& load) {
+std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, const DrawnLines& drawn, const TriangleLoad& load) {
   payload_.kind = SpanPayload::Kind::spans;
-  payload_.spans = spans;
+  payload_.spans = drawn.spans;
+  payload_.pixels = drawn.pixels;
   payload_.object = load.object;
   payload_.material = load.material;
-  std::uint64_t pixels = 0;
-  for (const Span& span : spans) pixels += span.count;
-  link_.record(pixels, Cycles(pixels));
+  link_.record(drawn.pixels, Cycles(drawn.pixels));
   const std::uint64_t now = stream::picoseconds_now();
   sc_core::sc_time until = stream::to_time(begin_ps - now);
   out->b_transport(payload_, until);

@@ -44,7 +44,7 @@ class SpanUnitModule : public sc_core::sc_module {
   void draw(LoadPayload& payload, sc_core::sc_time& delay);
   std::uint64_t set_free_ps() const;
   void draw_from(std::uint64_t cycle, const TriangleLoad& load);
-  std::uint64_t store(std::uint64_t begin_ps, std::span<const Span> spans, const TriangleLoad& load);
+  std::uint64_t store(std::uint64_t begin_ps, const DrawnLines& drawn, const TriangleLoad& load);
 
   SpanUnitParameters parameters_;
   SpanUnit unit_;

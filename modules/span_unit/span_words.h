@@ -37,13 +37,13 @@ struct EdgeWords {
   std::int64_t rest_step = 0;
   std::int64_t divisor = 1;
 
+  // Without a branch: carries come and go without a pattern.
   bool advance() {
-    column += step;
     rest -= rest_step;
-    if (rest >= 0) return false;
-    rest += divisor;
-    ++column;
-    return true;
+    const std::int64_t borrow = rest >> 63;  // -1: carries
+    rest += divisor & borrow;
+    column += step - borrow;
+    return borrow != 0;
   }
   friend bool operator==(const EdgeWords&, const EdgeWords&) = default;
 };

@@ -69,9 +69,14 @@ struct Machine : sc_core::sc_module {
   // At which the memory has taken `count` pixels of one level and depth.
   std::uint64_t draw(std::uint32_t line, std::uint32_t column, std::uint32_t count, std::uint32_t depth,
                      std::uint8_t red, std::uint64_t at) {
-    const std::vector<std::uint32_t> levels(count + kSparePixels, red);
-    const std::vector<std::uint32_t> depths(count + kSparePixels, depth);
-    return transport({line, column, count, levels.data(), depths.data(), count}, SpanPayload::Kind::span, 0, at);
+    span_unit::Span span;
+    span.line = line;
+    span.column = column;
+    span.count = count;
+    span.cycles = count;
+    span.i[0] = std::uint64_t{red} << 20;
+    span.i[span_unit::kDepthSet] = std::uint64_t{depth} << 8;
+    return transport(span, SpanPayload::Kind::spans, 0, at);
   }
   // At which the frame is shown.
   std::uint64_t end(std::uint64_t frame, std::uint64_t at) {
@@ -83,7 +88,8 @@ struct Machine : sc_core::sc_module {
   std::uint64_t transport(const span_unit::Span& span, SpanPayload::Kind kind, std::uint64_t frame, std::uint64_t at) {
     payload_.kind = kind;
     payload_.frame = frame;
-    payload_.span = &span;
+    payload_.spans = {&span, 1};
+    payload_.pixels = span.count;
     payload_.object = 1;
     const std::uint64_t now = stream::picoseconds_now();
     sc_core::sc_time delay = stream::to_time(at - now);
@@ -236,8 +242,8 @@ TEST(FrameStoreModule, LinesOfTheScreenGoFirstAtASharedPort) {
   EXPECT_EQ(at.module.scan_out_accesses(kVideoFrame), kColumns * kLines);
 }
 
-// A memory that a span unit need never wait for is not asked, and counts the same; asked, it would keep up. Where a pixel
-// takes a picosecond less it is asked.
+// A memory that a span unit need never wait for is not asked, and counts the same; asked, it would keep up. Where a
+// pixel takes a picosecond less it is asked.
 class KeepsUp : public testing::TestWithParam<std::pair<std::int64_t, std::int64_t>> {};  // bits, banks
 
 TEST_P(KeepsUp, AndIsNotAskedThen) {

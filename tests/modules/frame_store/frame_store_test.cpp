@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/span_pixels.h"
+
 namespace rastertlm::frame_store {
 namespace {
 
@@ -14,8 +16,9 @@ constexpr std::uint32_t kColumns = 141;
 constexpr std::uint32_t kLines = 7;
 
 struct Drawn {
-  std::uint32_t line, column, object;
-  std::vector<std::uint32_t> levels, depths;
+  span_unit::Span span;
+  std::uint32_t object = 0;
+  std::vector<std::uint32_t> levels, depths;  // as its registers step through them
 };
 
 class FrameStoreTest : public testing::TestWithParam<VectorVariant> {
@@ -24,32 +27,28 @@ class FrameStoreTest : public testing::TestWithParam<VectorVariant> {
   std::uint32_t number(std::uint32_t low, std::uint32_t high) {
     return std::uniform_int_distribution<std::uint32_t>(low, high)(random_);
   }
-  std::vector<Drawn> spans(std::uint32_t count) {
+  // Colours at random; depths from a few words, so that many are equal.
+  std::vector<Drawn> spans(std::uint32_t count, const span_unit::PixelFormat& format = {}) {
     std::vector<Drawn> all;
     for (std::uint32_t i = 0; i < count; ++i) {
       Drawn d;
-      d.line = number(0, kLines - 1);
-      d.column = number(0, kColumns - 1);
       d.object = i + 1;
-      const std::uint32_t length = number(1, kColumns - d.column);
-      d.levels.resize(length + kSparePixels, 0xDEAD);
-      d.depths.resize(length + kSparePixels, 0);  // nearer than all, and not to be looked at
-      for (std::uint32_t x = 0; x < length; ++x) {
-        d.levels[x] = number(0, 0xFFFFFF);
-        d.depths[x] = number(0, 30);
+      d.span.line = number(0, kLines - 1);
+      d.span.column = number(0, kColumns - 1);
+      d.span.count = number(1, kColumns - d.span.column);
+      for (std::size_t c = 0; c < span_unit::kDepthSet; ++c) {
+        d.span.i[c] = random_();
+        d.span.di[c] = random_() >> number(0, 40);
+        d.span.pixel_pixel[c] = random_() >> number(0, 60);
       }
+      d.span.i[span_unit::kDepthSet] = std::uint64_t{number(0, 30)} << format.depth_fraction_bits;
+      d.span.di[span_unit::kDepthSet] = number(0, 1) == 0 ? 0 : std::uint64_t{number(0, 9)} - 3;
+      test::SpanPixels pixels = test::pixels_of(d.span, format);
+      d.levels = std::move(pixels.levels);
+      d.depths = std::move(pixels.depths);
       all.push_back(std::move(d));
     }
     return all;
-  }
-  static span_unit::Span of(const Drawn& d) {
-    span_unit::Span span;
-    span.line = d.line;
-    span.column = d.column;
-    span.count = static_cast<std::uint32_t>(d.levels.size() - kSparePixels);
-    span.levels = d.levels.data();
-    span.depths = d.depths.data();
-    return span;
   }
 };
 
@@ -71,8 +70,8 @@ TEST_P(FrameStoreTest, KeepsTheNearestInAnyOrder) {
     std::vector<std::uint32_t> depth(kColumns * kLines, 0xFFFFFF), object(depth.size(), 0),
         levels(depth.size(), 0x030201), coverage(depth.size(), 0);
     for (const Drawn& d : drawn)
-      for (std::uint32_t x = 0; x < of(d).count; ++x) {
-        const std::size_t at = d.line * kColumns + d.column + x;
+      for (std::uint32_t x = 0; x < d.span.count; ++x) {
+        const std::size_t at = d.span.line * kColumns + d.span.column + x;
         ++coverage[at];
         if (test && d.depths[x] >= depth[at]) continue;
         depth[at] = d.depths[x];
@@ -85,8 +84,8 @@ TEST_P(FrameStoreTest, KeepsTheNearestInAnyOrder) {
     std::uint64_t kept = 0;
     std::uint64_t in = 0;
     for (const Drawn& d : drawn) {
-      kept += store.draw(of(d), d.object, d.object % 5);
-      in += of(d).count;
+      kept += store.draw({&d.span, 1}, d.object, d.object % 5);
+      in += d.span.count;
     }
     store.swap();
     frame::Frame shown;
@@ -123,9 +122,9 @@ TEST_P(FrameStoreTest, SaysWhichPixelsWon) {
     std::shuffle(drawn.begin(), drawn.end(), random_);
     for (const Drawn& d : drawn) {
       std::vector<std::uint64_t> won(kColumns / 64 + 1, 0xFACE);
-      store.draw(of(d), d.object, 0, won.data());
-      for (std::uint32_t x = 0; x < of(d).count; ++x) {
-        const std::size_t at = d.line * kColumns + d.column + x;
+      store.draw({&d.span, 1}, d.object, 0, won.data());
+      for (std::uint32_t x = 0; x < d.span.count; ++x) {
+        const std::size_t at = d.span.line * kColumns + d.span.column + x;
         const bool wins = !test || d.depths[x] < depth[at] || (d.depths[x] == depth[at] && d.object < object[at]);
         ASSERT_EQ((won[x / 64] >> x % 64 & 1) != 0, wins) << x;
         if (wins) depth[at] = d.depths[x];
@@ -135,20 +134,86 @@ TEST_P(FrameStoreTest, SaysWhichPixelsWon) {
   }
 }
 
+// What is drawn over the last picture but one, where nothing clears it, needs both.
 TEST_P(FrameStoreTest, ShowsOneBufferWhileTheOtherIsDrawn) {
   const std::vector<Drawn> drawn = spans(2);
-  FrameStore store({}, format(), GetParam());
-  store.clear();
-  store.draw(of(drawn[0]), 1, 0);
+  FrameStoreParameters parameters;
+  parameters.clear = false;
+  FrameStore store(parameters, format(), GetParam());
+  const auto shows = [&](const Drawn& d) {
+    frame::Frame shown;
+    store.observe(shown);
+    return shown.object[d.span.line * kColumns + d.span.column];
+  };
+  store.draw({&drawn[0].span, 1}, 1, 0);
   store.swap();
-  store.clear();
-  store.draw(of(drawn[1]), 2, 0);
-  frame::Frame shown;
-  store.observe(shown);
-  EXPECT_EQ(shown.object[drawn[0].line * kColumns + drawn[0].column], 1U);
+  store.draw({&drawn[1].span, 1}, 2, 0);
+  EXPECT_EQ(shows(drawn[0]), 1U);
+  EXPECT_NE(shows(drawn[1]), 2U);
   store.swap();
-  store.observe(shown);
-  EXPECT_EQ(shown.object[drawn[1].line * kColumns + drawn[1].column], 2U);
+  EXPECT_EQ(shows(drawn[1]), 2U);
+}
+
+// Each picture begins with nothing, and so do lines of it that nothing is drawn into.
+TEST_P(FrameStoreTest, BeginsEachPictureWithNothing) {
+  for (const std::int64_t buffers : {1, 2}) {
+    FrameStoreParameters parameters;
+    parameters.buffers = buffers;
+    FrameStore store(parameters, format(), GetParam());
+    for (const Drawn& d : spans(20)) {
+      store.clear();
+      store.draw({&d.span, 1}, d.object, 0);
+      store.swap();
+      frame::Frame shown;
+      store.observe(shown);
+      frame::RgbLine rgb;
+      rgb.resize(kColumns);
+      for (std::uint32_t line = 0; line < kLines; ++line) {
+        store.scan_out(line, rgb);
+        for (std::uint32_t x = 0; x < kColumns; ++x) {
+          const bool in = line == d.span.line && x >= d.span.column && x < d.span.column + d.span.count;
+          const std::size_t at = line * kColumns + x;
+          ASSERT_EQ(shown.object[at], in ? d.object : 0U);
+          ASSERT_EQ(shown.depth[at], in ? d.depths[x - d.span.column] : 0xFFFFFFU);
+          ASSERT_EQ(rgb.levels[3 * x + 1], in ? d.levels[x - d.span.column] >> 8 & 0xFF : 2U);
+        }
+      }
+    }
+  }
+}
+
+// Of every width, many spans in one call.
+TEST_P(FrameStoreTest, ShowsWhatRegistersOfAnyWidthStepThrough) {
+  for (const unsigned word : {12U, 18U, 31U, 32U, 33U, 40U, 64U})
+    for (const unsigned depth_bits : {8U, 24U, 32U}) {
+      FrameStore::Format format_of_it = format();
+      format_of_it.pixels = {word, word - 10, depth_bits, std::min(8U, 32 - depth_bits)};
+      format_of_it.farthest = depth_bits == 32 ? ~0U : (1U << depth_bits) - 1;
+      FrameStoreParameters parameters;
+      parameters.depth_test = false;
+      FrameStore store(parameters, format_of_it, GetParam());
+      store.clear();
+      std::vector<std::uint32_t> levels(kColumns * kLines, 0x030201), depth(levels.size(), format_of_it.farthest);
+      std::vector<span_unit::Span> list;
+      for (const Drawn& d : spans(60, format_of_it.pixels)) {
+        list.push_back(d.span);
+        const std::size_t at = d.span.line * kColumns + d.span.column;
+        std::copy(d.levels.begin(), d.levels.end(), levels.begin() + static_cast<std::ptrdiff_t>(at));
+        std::copy(d.depths.begin(), d.depths.end(), depth.begin() + static_cast<std::ptrdiff_t>(at));
+      }
+      store.draw(list, 1, 0);
+      store.swap();
+      frame::Frame shown;
+      store.observe(shown);
+      ASSERT_EQ(shown.depth, depth);
+      frame::RgbLine rgb;
+      rgb.resize(kColumns);
+      for (std::uint32_t line = 0; line < kLines; ++line) {
+        store.scan_out(line, rgb);
+        for (std::uint32_t x = 0; x < 3 * kColumns; ++x)
+          ASSERT_EQ(rgb.levels[x], levels[line * kColumns + x / 3] >> (8 * (x % 3)) & 0xFF) << word << " bits";
+      }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, FrameStoreTest, testing::ValuesIn(available_vector_variants()),

@@ -10,6 +10,7 @@
 #include "modules/set_up/quadratic_solver.h"
 #include "modules/span_unit/span_unit.h"
 #include "tests/modules/set_up/triangles.h"
+#include "tests/support/span_pixels.h"
 
 namespace rastertlm::set_up::test {
 namespace {
@@ -45,10 +46,12 @@ class SpanLoad : public testing::Test {
   }
 };
 
+// Calls sink(span, pixels) for every line.
 template <class Sink>
 void draw(const ColourTriangle& triangle, const span_unit::SpanUnitParameters& parameters, const Sink& sink) {
-  span_unit::SpanUnit unit(parameters, kColumns, kLines, VectorVariant::baseline);
-  unit.draw(span_load(triangle, SpanFormat::of(parameters, kLines)), sink);
+  span_unit::SpanUnit unit(parameters, kColumns, kLines);
+  for (const span_unit::Span& span : unit.draw(span_load(triangle, SpanFormat::of(parameters, kLines))).spans)
+    sink(span, rastertlm::test::pixels_of(span, span_unit::pixel_format(parameters)));
 }
 
 TEST_F(SpanLoad, CoversTheSamplesOfATriangleAndNoOthers) {
@@ -57,7 +60,7 @@ TEST_F(SpanLoad, CoversTheSamplesOfATriangleAndNoOthers) {
     const ColourTriangle t = triangle();
     if (!has_area(t)) continue;
     std::vector<Span> spans(kLines);
-    draw(t, {}, [&](const span_unit::Span& span) {
+    draw(t, {}, [&](const span_unit::Span& span, const rastertlm::test::SpanPixels&) {
       spans[span.line] = {span.column, static_cast<std::int64_t>(span.column) + span.count};
       covered += span.count;
     });
@@ -93,7 +96,7 @@ TEST_F(SpanLoad, LeavesNeitherHoleNorDoublePixelAlongAnEdge) {
     std::vector<int> count(std::size_t{kColumns} * kLines, 0);
     const auto add = [&](const ColourTriangle& t, int what) {
       if (!has_area(t)) return;
-      draw(t, {}, [&](const span_unit::Span& span) {
+      draw(t, {}, [&](const span_unit::Span& span, const rastertlm::test::SpanPixels&) {
         for (std::uint32_t x = 0; x < span.count; ++x) count[span.line * kColumns + span.column + x] += what;
       });
     };
@@ -128,13 +131,13 @@ double largest_error(const span_unit::SpanUnitParameters& parameters, std::mt199
     if (std::abs(geometry::doubled_area(t.corners[0], t.corners[1], t.corners[2])) < 256 * 3000) continue;
     colour(t, random);
     const double unit = std::ldexp(1.0, -t.fraction_bits);
-    draw(t, parameters, [&](const span_unit::Span& span) {
+    draw(t, parameters, [&](const span_unit::Span& span, const rastertlm::test::SpanPixels& pixels) {
       for (std::uint32_t x = 0; x < span.count; ++x)
         for (unsigned c = 0; c < 3; ++c) {
           const double exact = t.colour[c].at(span.column + x - static_cast<double>(t.corners[0].x) * unit,
                                               span.line - static_cast<double>(t.corners[0].y) * unit);
           if (exact < 1.0 || exact > 254.0) continue;
-          const auto level = static_cast<double>(span.levels[x] >> (8 * c) & 0xFFU);
+          const auto level = static_cast<double>(pixels.levels[x] >> (8 * c) & 0xFFU);
           largest = std::max(largest, std::fabs(level - exact) - 0.5);
         }
     });
@@ -174,7 +177,7 @@ TEST_F(SpanLoad, DepthErrsByHalfABitAStep) {
     const double unit = std::ldexp(1.0, -t.fraction_bits);
     const geometry::SnappedPoint a = t.corners[0], b = t.corners[1], c = t.corners[2];
     const double area = static_cast<double>(geometry::doubled_area(a, b, c)) * unit * unit;
-    draw(t, {}, [&](const span_unit::Span& span) {
+    draw(t, {}, [&](const span_unit::Span& span, const rastertlm::test::SpanPixels& stepped) {
       for (std::uint32_t x = 0; x < span.count; ++x) {
         const double px = span.column + x - static_cast<double>(a.x) * unit;
         const double py = span.line - static_cast<double>(a.y) * unit;
@@ -184,7 +187,7 @@ TEST_F(SpanLoad, DepthErrsByHalfABitAStep) {
         const double exact = t.depth[0] + v * (t.depth[1] - t.depth[0]) + w * (t.depth[2] - t.depth[0]);
         // Shown without its fraction: up to one less; steps of 2^-9 each.
         const double steps = kColumns + 3 * kLines + 200;
-        ASSERT_NEAR(span.depths[x] + 0.5, exact, 0.5 + steps / 512 + 1e-6 * std::fabs(exact) / 15.0);
+        ASSERT_NEAR(stepped.depths[x] + 0.5, exact, 0.5 + steps / 512 + 1e-6 * std::fabs(exact) / 15.0);
       }
     });
   }

@@ -11,12 +11,14 @@
 namespace rastertlm::test {
 namespace {
 
-double frames_per_second(const quadratic::Machine& machine, const scene::Scene& scene) {
-  quadratic::Quadratic platform(machine, scene, {4, false}, {});
+double frames_per_second(const quadratic::Machine& machine, const scene::Scene& scene, std::uint64_t frames = 4) {
+  quadratic::Quadratic platform(machine, scene, {frames, false}, {});
   platform.run();
   return platform.frames_per_second();
 }
 
+// Nothing clears the two buffers: their first pictures are seen whole, later ones are hidden by what stands there.
+constexpr std::uint64_t kSeenWhole = 2;
 constexpr double kThousand = 1000;
 
 scene::Scene thousand_screen() {
@@ -63,7 +65,7 @@ TEST(Rates, SixteenByTheMemory) {
   const scene::Scene scene = thousand_screen();
   quadratic::Machine machine = span_unit_alone(1000, 1000);
   machine.frame_store.access_ns = 31.25;
-  EXPECT_NEAR(frames_per_second(machine, scene), 16.0, 0.02);
+  EXPECT_NEAR(frames_per_second(machine, scene, kSeenWhole), 16.0, 0.02);
 }
 
 // 20 ms are 400,000 pixels of 50 ns, 1.5259 screens of 512 x 512: a screen and 269 of its lines (1.5254) fit, with 270
@@ -150,8 +152,7 @@ TEST_P(Overlap, OfSetUpAndDrawingIsTheClosedForm) {
   while (set_up.next()) {
     computing += kClock * platform.cost().compute(set_up.operations()).count();
     for (const auto& load : set_up.loads()) {
-      std::uint64_t cycles = 1;
-      unit.draw(load, [&](const span_unit::Span& span) { cycles += span.cycles; });
+      const std::uint64_t cycles = 1 + unit.draw(load).cycles;
       work.push_back({computing, kClock * platform.cost().bus(set_up.words_of(load)).count(), kClock * cycles});
       computing = 0;
     }
@@ -203,7 +204,7 @@ TEST(DealtUnits, ShareTheMemory) {
   machine.span_unit.share = span_unit::Share::triangles;
   machine.frame_store.access_ns = 20.0;
   machine.frame_store.width_bits = 128;  // depth, colour and number: a read and a write, 40 ns a pixel
-  EXPECT_NEAR(frames_per_second(machine, scene), 25.0, 0.1);
+  EXPECT_NEAR(frames_per_second(machine, scene, kSeenWhole), 25.0, 0.1);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "modules/span_unit/span_unit.h"
 #include "platforms/quadratic/machine.h"
 #include "src/run/inputs.h"
+#include "tests/support/span_pixels.h"
 
 namespace rastertlm::test {
 
@@ -20,9 +21,10 @@ inline run::Inputs sphere_inputs(const std::string& mesh, const std::vector<std:
                           source + "/configs/scenes/sphere_" + mesh + ".toml", overrides);
 }
 
-// Calls visit(triangle, span) for every span of the first frame, in the order of drawing.
-inline void visit_spans(const run::Inputs& inputs,
-                        const std::function<void(const set_up::ColourTriangle&, const span_unit::Span&)>& visit) {
+// Calls visit(triangle, span, pixels) for every span of the first frame, in the order of drawing.
+inline void visit_spans(
+    const run::Inputs& inputs,
+    const std::function<void(const set_up::ColourTriangle&, const span_unit::Span&, const SpanPixels&)>& visit) {
   const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
   const scene::Scene& scene = inputs.content->scene;
   host::ResidentScene resident;
@@ -37,8 +39,8 @@ inline void visit_spans(const run::Inputs& inputs,
   work.begin_frame(scene::pose(scene, 0, machine.viewport().columns, machine.viewport().lines), false);
   while (work.next())
     for (const set_up::ColourTriangle& triangle : work.coloured())
-      unit.draw(set_up::span_load(triangle, machine.set_up_format().span),
-                [&](const span_unit::Span& span) { visit(triangle, span); });
+      for (const span_unit::Span& span : unit.draw(set_up::span_load(triangle, machine.set_up_format().span)).spans)
+        visit(triangle, span, pixels_of(span, span_unit::pixel_format(machine.span_unit)));
 }
 
 // The colour that the triangle's coefficients have at a pixel, in double and not clamped.

@@ -46,14 +46,15 @@ std::vector<glm::dvec3> interpolated(const run::Inputs& inputs, std::vector<std:
   const std::size_t columns = machine.viewport().columns;
   std::vector<glm::dvec3> levels(columns * machine.viewport().lines);
   objects.assign(levels.size(), 0);
-  test::visit_spans(inputs, [&](const set_up::ColourTriangle& triangle, const span_unit::Span& span) {
-    for (std::uint32_t x = span.column; x < span.column + span.count; ++x) {
-      const std::size_t pixel = span.line * columns + x;
-      objects[pixel] = triangle.object;
-      for (std::size_t c = 0; c < 3; ++c)
-        levels[pixel][static_cast<int>(c)] = std::clamp(test::colour_at(triangle, c, x, span.line), 0.0, 255.0);
-    }
-  });
+  test::visit_spans(
+      inputs, [&](const set_up::ColourTriangle& triangle, const span_unit::Span& span, const test::SpanPixels&) {
+        for (std::uint32_t x = span.column; x < span.column + span.count; ++x) {
+          const std::size_t pixel = span.line * columns + x;
+          objects[pixel] = triangle.object;
+          for (std::size_t c = 0; c < 3; ++c)
+            levels[pixel][static_cast<int>(c)] = std::clamp(test::colour_at(triangle, c, x, span.line), 0.0, 255.0);
+        }
+      });
   return levels;
 }
 

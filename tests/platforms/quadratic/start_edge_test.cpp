@@ -14,12 +14,13 @@ double largest_error(const std::string& mesh, int exponent, const std::string& s
   const run::Inputs inputs =
       sphere_inputs(mesh, {"material[0].exponent=" + std::to_string(exponent), "span_unit.start_edge=" + start_edge});
   double largest = 0.0;
-  visit_spans(inputs, [&](const set_up::ColourTriangle& triangle, const span_unit::Span& span) {
-    for (std::uint32_t x = 0; x < span.count; ++x) {
-      const double exact = std::clamp(colour_at(triangle, 0, span.column + x, span.line), 0.0, 255.0);
-      largest = std::max(largest, std::fabs((span.levels[x] & 0xFFU) - exact) - 0.5);
-    }
-  });
+  visit_spans(inputs,
+              [&](const set_up::ColourTriangle& triangle, const span_unit::Span& span, const SpanPixels& pixels) {
+                for (std::uint32_t x = 0; x < span.count; ++x) {
+                  const double exact = std::clamp(colour_at(triangle, 0, span.column + x, span.line), 0.0, 255.0);
+                  largest = std::max(largest, std::fabs((pixels.levels[x] & 0xFFU) - exact) - 0.5);
+                }
+              });
   return largest;
 }
 
