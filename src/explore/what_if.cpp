@@ -95,6 +95,12 @@ std::optional<std::size_t> best_of(const std::vector<Move>& moves, std::size_t o
 
 }  // namespace
 
+std::optional<double> change_of(const Move& move, std::size_t objective, Sense sense) {
+  const Figure& gain = move.gains[objective];
+  if (!gain || *gain == 0.0) return gain;  // 0 and never -0
+  return sense == Sense::maximise ? *gain : -*gain;
+}
+
 WhatIf find_what_if(const SweepTable& table, std::size_t from, double tolerance) {
   if (from >= table.rows.size()) throw std::invalid_argument("row " + std::to_string(from) + " is not in the table");
   const Row& start = table.rows[from];

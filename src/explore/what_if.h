@@ -31,6 +31,10 @@ struct Move {
   std::vector<std::optional<double>> gains;
 };
 
+// How much an objective's figure grows with the move: the gain for what is to be most, the loss for what is to be
+// least.
+std::optional<double> change_of(const Move& move, std::size_t objective, Sense sense);
+
 // The best moves for one objective: those that make it better by the most; of equal ones the first of the list. None
 // where no known move makes it better.
 struct BestMoves {

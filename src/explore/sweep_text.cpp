@@ -1,0 +1,243 @@
+#include "src/explore/sweep_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "src/explore/sweep_words.h"
+#include "src/report/number_text.h"
+#include "src/report/text_table.h"
+
+namespace rastertlm::explore {
+namespace {
+
+using report::Align;
+using report::Column;
+using report::counted;
+using report::grouped;
+using report::TextTable;
+
+std::string with_unit(const std::string& figure, const Objective& objective) {
+  return objective.unit.empty() ? figure : figure + ' ' + in_one_line(objective.unit);
+}
+
+// Below 0 where `a` comes before `b` by its figures, in the objectives' order.
+int order_of(const SweepTable& table, const Row& a, const Row& b) {
+  for (std::size_t o = 0; o < table.objectives.size(); ++o) {
+    const int way = compare_figures(a.figures[o], b.figures[o], table.objectives[o].sense);
+    if (way != 0) return way;
+  }
+  return 0;
+}
+
+std::vector<Column> point_columns(const Names& names) {
+  std::vector<Column> columns{{"point", Align::right}};
+  for (const std::string& name : names.axes) columns.push_back({name, Align::right});
+  for (const std::string& name : names.objectives) columns.push_back({name, Align::right});
+  return columns;
+}
+
+std::vector<std::string> point_cells(const SweepTable& table, const Row& row) {
+  std::vector<std::string> cells{std::to_string(row.number)};
+  for (std::size_t a = 0; a < table.axes.size(); ++a)
+    cells.push_back(in_one_line(table.axes[a].values.at(row.values[a])));
+  for (const auto& figure : row.figures) cells.push_back(figure_text(figure));
+  return cells;
+}
+
+std::string rest_line(std::size_t shown, std::size_t all) {
+  return shown < all ? fmt::format("{}{} more.\n", kIndent, grouped(all - shown)) : "";
+}
+
+std::string constraints_text(const SweepTable& table) {
+  std::string text;
+  for (const std::string& constraint : table.constraints) text += (text.empty() ? "" : "; ") + in_one_line(constraint);
+  return text;
+}
+
+std::string counts_sentence(const SweepTable& table, const Front& front) {
+  std::size_t failed = 0;
+  std::size_t waiting = 0;
+  std::size_t breaking = 0;
+  for (const Row& row : table.rows) {
+    failed += row.state == State::failed ? 1 : 0;
+    waiting += row.state == State::waiting ? 1 : 0;
+    breaking += row.state == State::done && !row.allowed ? 1 : 0;
+  }
+  std::string text = fmt::format("{}: {} on the front, {} beaten by it", counted(table.rows.size(), "point", "points"),
+                                 grouped(front.rows.size()),
+                                 grouped(table.rows.size() - failed - waiting - breaking - front.rows.size()));
+  if (breaking > 0) text += fmt::format(", {} against the constraints", grouped(breaking));
+  if (failed > 0) text += fmt::format(", {} failed", grouped(failed));
+  if (waiting > 0) text += fmt::format(", {} not run yet", grouped(waiting));
+  return text + ".\n";
+}
+
+// "bits -500 (-12 %)" for each objective that differs, `row` against `other`.
+std::string difference_text(const SweepTable& table, const Names& names, const Row& row, const Row& other) {
+  std::string text;
+  for (std::size_t o = 0; o < table.objectives.size(); ++o) {
+    const auto& own = row.figures[o];
+    const auto& before = other.figures[o];
+    if (compare_figures(own, before, Sense::minimise) == 0) continue;
+    if (!text.empty()) text += "; ";
+    text += names.objectives[o] + ' ';
+    if (!own || !before) {
+      text += figure_text(own) + " for " + figure_text(before);
+    } else {
+      text += change_text(*own - *before, before, in_one_line(table.objectives[o].unit));
+    }
+  }
+  return text.empty() ? "equal in all objectives" : text;
+}
+
+}  // namespace
+
+std::optional<std::size_t> answer_row(const SweepTable& table, const Front& front) {
+  if (front.rows.empty()) return {};
+  return *std::ranges::min_element(
+      front.rows, [&](std::size_t a, std::size_t b) { return order_of(table, table.rows[a], table.rows[b]) < 0; });
+}
+
+std::string answer_section(const SweepTable& table, const Front& front) {
+  const Names names(table);
+  const std::string question = table.question.empty() ? "" : "Question: " + in_one_line(table.question) + '\n';
+  const std::string met = table.constraints.empty() ? "" : " that meet " + constraints_text(table);
+  const auto answer = answer_row(table, front);
+  if (!answer) {
+    const bool any_done = std::ranges::any_of(table.rows, [](const Row& row) { return row.state == State::done; });
+    const std::string none = !any_done ? "no point is done" : "no point meets " + constraints_text(table);
+    return question + "Answer: none yet: " + none + ".\n" + counts_sentence(table, front);
+  }
+  const Row& row = table.rows[*answer];
+  std::string text = question + "Answer: " + point_text(table, names, row) + fmt::format(" (point {})", row.number);
+  if (!table.objectives.empty()) {
+    const Objective& first = table.objectives.front();
+    const auto compared = static_cast<std::size_t>(std::ranges::count(front.compared, true));
+    text += fmt::format(": {} {}, the {} of {}{}", names.objectives.front(),
+                        with_unit(figure_text(row.figures.front()), first), wanted_text(first.sense),
+                        counted(compared, "point", "points"), met);
+    for (std::size_t o = 1; o < table.objectives.size(); ++o)
+      text += fmt::format("{} {} {}", o == 1 ? ", with" : ",", names.objectives[o],
+                          with_unit(figure_text(row.figures[o]), table.objectives[o]));
+  }
+  text += ".\n";
+  if (table.baseline && *table.baseline == *answer) text += "That is the baseline.\n";
+  if (table.baseline && *table.baseline != *answer && table.rows[*table.baseline].state == State::done)
+    text += fmt::format("Against the baseline (point {}): {}.\n", table.rows[*table.baseline].number,
+                        difference_text(table, names, row, table.rows[*table.baseline]));
+  return text + counts_sentence(table, front);
+}
+
+std::string objectives_section(const SweepTable& table, const Front& front) {
+  if (table.objectives.empty()) return "";
+  const Names names(table);
+  TextTable text({{"objective"},
+                  {"path"},
+                  {"unit"},
+                  {"wanted"},
+                  {"best", Align::right},
+                  {"worst", Align::right},
+                  {"baseline", Align::right}},
+                 kIndent);
+  for (std::size_t o = 0; o < table.objectives.size(); ++o) {
+    const Objective& objective = table.objectives[o];
+    const Row* best = nullptr;
+    const Row* worst = nullptr;
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      if (!front.compared[r] || !table.rows[r].figures[o]) continue;
+      const Row* row = &table.rows[r];
+      if (best == nullptr || compare_figures(row->figures[o], best->figures[o], objective.sense) < 0) best = row;
+      if (worst == nullptr || compare_figures(row->figures[o], worst->figures[o], objective.sense) > 0) worst = row;
+    }
+    const auto text_of = [&](const Row* row) { return row == nullptr ? "-" : figure_text(row->figures[o]); };
+    text.row({names.objectives[o], in_one_line(objective.path), in_one_line(objective.unit),
+              wanted_text(objective.sense), text_of(best), text_of(worst),
+              text_of(table.baseline ? &table.rows.at(*table.baseline) : nullptr)});
+  }
+  return heading("Objectives") + text.text() + kIndent +
+         "Best and worst: of the points that are done and meet the constraints.\n";
+}
+
+std::string front_section(const SweepTable& table, const Front& front, std::size_t most_rows) {
+  const Names names(table);
+  std::string text = heading("Front: what no other point beats");
+  if (front.rows.empty()) return text + kIndent + "Empty: no point is done and meets the constraints.\n";
+  std::vector<std::size_t> order = front.rows;
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return order_of(table, table.rows[a], table.rows[b]) < 0; });
+  std::vector<Column> columns = point_columns(names);
+  columns.push_back({"equal to it", Align::right});
+  TextTable rows(std::move(columns), kIndent);
+  std::size_t shown = 0;
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < order.size() && shown < most_rows; ++shown) {
+    std::size_t end = i + 1;
+    while (end < order.size() && order_of(table, table.rows[order[i]], table.rows[order[end]]) == 0) ++end;
+    std::vector<std::string> cells = point_cells(table, table.rows[order[i]]);
+    cells.push_back(end - i > 1 ? counted(end - i - 1, "point", "points") : "");
+    rows.row(std::move(cells));
+    covered += end - i;
+    i = end;
+  }
+  return text + rows.text() + rest_line(covered, order.size());
+}
+
+std::string beaten_section(const SweepTable& table, const Front& front, std::size_t most_rows) {
+  const Names names(table);
+  std::vector<Column> columns = point_columns(names);
+  columns.push_back({"beaten by", Align::right});
+  TextTable rows(std::move(columns), kIndent);
+  std::size_t shown = 0;
+  std::size_t all = 0;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    if (!front.beaten_by[r]) continue;
+    if (++all > most_rows) continue;
+    std::vector<std::string> cells = point_cells(table, table.rows[r]);
+    cells.push_back(std::to_string(table.rows[*front.beaten_by[r]].number));
+    rows.row(std::move(cells));
+    shown = all;
+  }
+  std::string text;
+  if (table.baseline && front.compared[*table.baseline]) {
+    const Row& base = table.rows[*table.baseline];
+    const auto by = front.beaten_by[*table.baseline];
+    text += by ? fmt::format("{}The baseline (point {}) is beaten by point {}: {}.\n", kIndent, base.number,
+                             table.rows[*by].number, difference_text(table, names, table.rows[*by], base))
+               : fmt::format("{}The baseline (point {}) is on the front.\n", kIndent, base.number);
+  }
+  if (all > 0) text += rows.text() + rest_line(shown, all);
+  return text.empty() ? "" : heading("What the front beats") + text;
+}
+
+std::string failures_section(const SweepTable& table, std::size_t most_rows) {
+  std::map<std::string, std::vector<const Row*>> errors;
+  for (const Row& row : table.rows)
+    if (row.state == State::failed) errors[in_one_line(row.error)].push_back(&row);
+  if (errors.empty()) return "";
+  TextTable rows({{"points", Align::right}, {"first", Align::right}, {"error"}}, kIndent);
+  std::vector<const std::pair<const std::string, std::vector<const Row*>>*> order;
+  for (const auto& entry : errors) order.push_back(&entry);
+  std::ranges::stable_sort(order, [](const auto* a, const auto* b) { return a->second.size() > b->second.size(); });
+  const std::size_t shown = std::min(most_rows, order.size());
+  for (std::size_t i = 0; i < shown; ++i)
+    rows.row({grouped(order[i]->second.size()), std::to_string(order[i]->second.front()->number), order[i]->first});
+  return heading("Points that failed") + rows.text() + rest_line(shown, order.size());
+}
+
+std::string sweep_text(const SweepTable& table, const TextOptions& options) {
+  const Front front = find_front(table);
+  std::string text = answer_section(table, front) + objectives_section(table, front) +
+                     front_section(table, front, options.most_rows) + beaten_section(table, front, options.most_rows) +
+                     failures_section(table, options.most_rows) + sensitivity_section(table, find_sensitivity(table));
+  std::optional<std::size_t> from = options.from;
+  // Chosen here, a point that is not done is no error: then there is nothing to tell.
+  if (!from && table.baseline && table.rows.at(*table.baseline).state == State::done) from = table.baseline;
+  if (!from) from = answer_row(table, front);
+  if (from) text += what_if_section(table, find_what_if(table, *from, options.tolerance), options.tolerance);
+  return text;
+}
+
+}  // namespace rastertlm::explore

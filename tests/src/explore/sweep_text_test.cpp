@@ -1,0 +1,194 @@
+#include "src/explore/sweep_text.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "src/explore/sweep_csv.h"
+#include "src/explore/sweep_words.h"
+#include "tests/src/explore/table_builder.h"
+
+namespace rastertlm::explore {
+namespace {
+
+using Values = std::vector<std::size_t>;
+using Fields = std::vector<std::string>;
+
+// Bits and rate of 2, 4 and 8 units on a tree or a pipeline; the rate must be 50 Hz.
+SweepTable question_table() {
+  SweepTable table;
+  table.name = "units";
+  table.question = "How few units still show it at 50 Hz?";
+  table.axes = {axis_of("host.computation_units", {"2", "4", "8"}),
+                axis_of("decision_unit.topology", {"\"tree\"", "\"pipeline\""})};
+  table.objectives = {{"memories[all].total_bits", "bits", Sense::minimise},
+                      {"answer.frame_rate_hz", "Hz", Sense::maximise}};
+  table.constraints = {"answer.frame_rate_hz >= 50"};
+  add_grid(table, [](const Values& v) {
+    const double units = std::pow(2.0, static_cast<double>(v[0]) + 1.0);
+    return Figures{1'000.0 * units + (v[1] == 0 ? 500.0 : 0.0), std::min(60.0, 12.5 * units)};
+  });
+  for (Row& row : table.rows) row.allowed = *row.figures[1] >= 50.0;
+  table.baseline = 4;  // 8 units, tree
+  return table;
+}
+
+bool has_line(const std::string& text, const std::string& line) {
+  std::istringstream lines(text);
+  for (std::string own; std::getline(lines, own);)
+    if (own == line) return true;
+  return false;
+}
+
+// The words of the line that begins with these words, after them.
+Fields words_after(const std::string& text, const std::string& start) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first == std::string::npos || line.compare(first, start.size(), start) != 0) continue;
+    std::istringstream rest(line.substr(first + start.size()));
+    Fields words;
+    for (std::string word; rest >> word;) words.push_back(word);
+    return words;
+  }
+  return {};
+}
+
+TEST(SweepText, AnswersTheQuestionInALine) {
+  const SweepTable table = question_table();
+  const std::string text = answer_section(table, find_front(table));
+  EXPECT_TRUE(has_line(text, "Question: How few units still show it at 50 Hz?")) << text;
+  EXPECT_TRUE(
+      has_line(text,
+               "Answer: computation_units = 4, topology = \"pipeline\" (point 3): memories[all].total_bits 4,000 bits, "
+               "the least of 4 points that meet answer.frame_rate_hz >= 50, with frame_rate_hz 50 Hz."))
+      << text;
+  EXPECT_TRUE(
+      has_line(text,
+               "Against the baseline (point 4): memories[all].total_bits -4,500 bits (-53 %); frame_rate_hz -10 "
+               "(-17 %) Hz."))
+      << text;
+  EXPECT_TRUE(has_line(text, "6 points: 2 on the front, 2 beaten by it, 2 against the constraints.")) << text;
+}
+
+TEST(SweepText, SaysThatNothingMeetsTheConstraints) {
+  SweepTable table = question_table();
+  for (Row& row : table.rows) row.allowed = false;
+  table.rows[0].state = State::failed;
+  table.rows[0].error = "line one\nline two";
+  const std::string text = sweep_text(table);
+  EXPECT_TRUE(has_line(text, "Answer: none yet: no point meets answer.frame_rate_hz >= 50.")) << text;
+  EXPECT_TRUE(has_line(text, "6 points: 0 on the front, 0 beaten by it, 5 against the constraints, 1 failed.")) << text;
+  EXPECT_NE(text.find("Empty: no point is done and meets the constraints."), std::string::npos);
+  EXPECT_EQ(words_after(text, "1      0  "), (Fields{"line", "one", "line", "two"})) << text;
+}
+
+TEST(SweepText, ListsTheFrontAndWhatItBeats) {
+  SweepTable table = question_table();
+  table.rows[2].figures = table.rows[3].figures;  // a tree of the same figures
+  const Front front = find_front(table);
+  const std::string text = front_section(table, front, 10);
+  // Point, units, topology, bits, rate, how many are equal to it; the least bits first.
+  EXPECT_EQ(words_after(text, "2  "), (Fields{"4", "\"tree\"", "4,000", "50", "1", "point"})) << text;
+  EXPECT_EQ(words_after(text, "5  "), (Fields{"8", "\"pipeline\"", "8,000", "60"})) << text;
+  EXPECT_LT(text.find("4,000"), text.find("8,000"));
+  const std::string beaten = beaten_section(table, front, 10);
+  EXPECT_EQ(words_after(beaten, "4  "), (Fields{"8", "\"tree\"", "8,500", "60", "5"})) << beaten;
+  EXPECT_TRUE(
+      has_line(beaten, "  The baseline (point 4) is beaten by point 5: memories[all].total_bits -500 bits (-5.9 %)."))
+      << beaten;
+  EXPECT_TRUE(has_line(front_section(table, front, 1), "  1 more."));
+}
+
+TEST(SweepText, OrdersParametersByHowFarTheyMove) {
+  const SweepTable table = question_table();
+  const std::string text = sensitivity_section(table, find_sensitivity(table));
+  // Means of 2,250, 4,250 and 8,250 bits, the mean of all is 4,916 2/3; the topology moves 500 of it. Their variances
+  // are 6,222,222 and 250 squared, of 6,284,722.
+  EXPECT_EQ(words_after(text, "computation_units"), (Fields{"6,000", "122", "%", "2", "8", "99", "%"})) << text;
+  EXPECT_EQ(words_after(text, "topology"), (Fields{"500", "10", "%", "\"pipeline\"", "\"tree\"", "0.99", "%"})) << text;
+  EXPECT_LT(text.find("computation_units"), text.find("topology"));
+}
+
+TEST(SweepText, TellsTheBestSteps) {
+  const SweepTable table = question_table();
+  const std::string text = what_if_section(table, find_what_if(table, 4), 0.0);
+  EXPECT_EQ(words_after(text, "least memories[all].total_bits  -"),
+            (Fields{"computation_units", "8", "->", "4", "-4,000", "(-47", "%)", "-10", "(-17", "%)"}))
+      << text;
+  EXPECT_EQ(words_after(text, "least memories[all].total_bits  frame_rate_hz no worse"),
+            (Fields{"topology", "\"tree\"", "->", "\"pipeline\"", "-500", "(-5.9", "%)", "0"}))
+      << text;
+  EXPECT_EQ(words_after(text, "most frame_rate_hz              -"), (Fields{"none"})) << text;
+}
+
+TEST(SweepWords, ShortensPathsToWhatTellsThemApart) {
+  EXPECT_EQ(short_names({"host.units", "answer.rate_hz", "budgets[dot.words].used", "units[a.b].busy", "units[c].busy",
+                         "images[0].ideal.psnr", "images[0].true.psnr", "same", "x.same"}),
+            (Fields{"units", "rate_hz", "budgets[dot.words].used", "units[a.b].busy", "units[c].busy", "ideal.psnr",
+                    "true.psnr", "same", "x.same"}));
+}
+
+// A reader of RFC 4180.
+std::vector<Fields> parsed(const std::string& text) {
+  std::vector<Fields> rows(1, Fields(1));
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
+      rows.back().back() += c;
+      ++i;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      rows.back().emplace_back();
+    } else if (c == '\n' && !quoted) {
+      rows.emplace_back(1);
+    } else {
+      rows.back().back() += c;
+    }
+  }
+  rows.pop_back();
+  return rows;
+}
+
+RC_GTEST_PROP(SweepCsv, IsReadAgain, ()) {
+  SweepTable table = question_table();
+  table.rows[1].state = State::failed;
+  table.rows[1].error = *rc::gen::container<std::string>(rc::gen::element('a', ',', '"', '\n', ' ', ';', '\r'));
+  table.axes[1].values[1] = *rc::gen::container<std::string>(rc::gen::element('b', ',', '"', '[', ' '));
+  table.rows[2].figures[0] = *rc::gen::arbitrary<double>();
+  const Front front = find_front(table);
+  const std::vector<Fields> rows = parsed(front_csv(table, front));
+  RC_ASSERT(rows.size() == table.rows.size() + 1);
+  RC_ASSERT(rows[0] == (Fields{"point", "state", "allowed", "front", "beaten_by", "host.computation_units",
+                               "decision_unit.topology", "memories[all].total_bits", "answer.frame_rate_hz", "error"}));
+  RC_ASSERT(rows[2].back() == table.rows[1].error);
+  RC_ASSERT(rows[2][6] == table.axes[1].values[1]);
+  RC_ASSERT(std::stod(rows[3][7]) == *table.rows[2].figures[0]);
+  RC_ASSERT(rows[3][3] == (front.has(2) ? "1" : "0"));
+  RC_ASSERT(rows[1][3].empty());
+  for (const Fields& row : rows) RC_ASSERT(row.size() == rows[0].size());
+}
+
+TEST(SweepCsv, HasEffectsAndMoves) {
+  SweepTable table = question_table();
+  const std::vector<Fields> effects = parsed(sensitivity_csv(table, find_sensitivity(table)));
+  ASSERT_EQ(effects.size(), 1U + 2 * (3 + 2));
+  const Fields& two_units = effects[1];
+  EXPECT_EQ((Fields{two_units[0], two_units[2], two_units[3], two_units[4], two_units[5], two_units[7]}),
+            (Fields{"memories[all].total_bits", "host.computation_units", "2", "2", "by_value", "8"}));
+  EXPECT_NEAR(std::stod(two_units[6]), -6000.0, 1e-6);
+  table.rows[5].figures[1].reset();
+  const std::vector<Fields> moves = parsed(what_if_csv(table, find_what_if(table, 4)));
+  ASSERT_EQ(moves.size(), 3U);
+  EXPECT_EQ(moves[1], (Fields{"host.computation_units", "8", "4", "known", "2", "-4000", "-10"}));
+  EXPECT_EQ(moves[2], (Fields{"decision_unit.topology", "\"tree\"", "\"pipeline\"", "known", "5", "-500", ""}));
+}
+
+}  // namespace
+}  // namespace rastertlm::explore
