@@ -219,6 +219,7 @@ std::string failures_section(const SweepTable& table, std::size_t most_rows) {
   if (errors.empty()) return "";
   TextTable rows({{"points", Align::right}, {"first", Align::right}, {"error"}}, kIndent);
   std::vector<const std::pair<const std::string, std::vector<const Row*>>*> order;
+  order.reserve(errors.size());
   for (const auto& entry : errors) order.push_back(&entry);
   std::ranges::stable_sort(order, [](const auto* a, const auto* b) { return a->second.size() > b->second.size(); });
   const std::size_t shown = std::min(most_rows, order.size());

@@ -80,7 +80,7 @@ std::string figure_text(const std::optional<double>& figure) {
 std::string change_text(double change) { return fmt::format("{}{}", change > 0.0 ? "+" : "", figure_text(change)); }
 
 std::string change_text(double change, const std::optional<double>& before, const std::string& unit) {
-  const std::string text = fmt::format("{}{}{}", change_text(change), unit.empty() ? "" : " ", unit);
+  std::string text = fmt::format("{}{}{}", change_text(change), unit.empty() ? "" : " ", unit);
   if (change == 0.0 || !before || *before == 0.0 || !std::isfinite(*before) || !std::isfinite(change)) return text;
   const double part = change / std::abs(*before);
   return fmt::format("{} ({}{})", text, part > 0.0 ? "+" : "", report::percent(part));
