@@ -29,6 +29,11 @@ rastertlm_find(nlohmann_json::nlohmann_json nlohmann-json3-dev nlohmann_json)
 # By pkg-config: Debian's CMake package of assimp names libz.so, which comes with another -dev package that it does not depend on.
 rastertlm_pkg(ASSIMP libassimp-dev assimp)
 rastertlm_find(OpenSSL::Crypto libssl-dev OpenSSL)
+# Debian's chart.js is a folder; its file is whole, with its licence line.
+find_file(RASTERTLM_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js NO_DEFAULT_PATH)
+if(NOT RASTERTLM_CHART_JS OR NOT EXISTS "${RASTERTLM_CHART_JS}")
+  message(FATAL_ERROR "rastertlm needs libjs-chart.js: run scripts/install_dependencies, or apt-get install libjs-chart.js.")
+endif()
 if(RASTERTLM_TESTS)
   rastertlm_find(GTest::gtest libgtest-dev GTest)
   rastertlm_find(GTest::gmock libgmock-dev GTest)

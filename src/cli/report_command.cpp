@@ -12,7 +12,7 @@ ExitCode ReportCommand::run() {
   std::string text;
   try {
     report::rebuild_reports(directory_, text);
-  } catch (const OutputError&) {
+  } catch (...) {
     std::fputs(text.c_str(), stdout);  // what was asked for can be read all the same
     throw;
   }

@@ -46,6 +46,9 @@ struct Image {
 // Levels, 3 a pixel. The levels are stored unchanged. Two writes of the same levels give the same bytes.
 void write_png(const std::string& path, std::size_t columns, std::size_t lines, std::span<const std::uint8_t> rgb);
 
+// The same as bytes of a file.
+std::vector<std::uint8_t> encode_png(std::size_t columns, std::size_t lines, std::span<const std::uint8_t> rgb);
+
 // Native types (integers stay exact), zip compression, a fixed date: two writes of the same values give the same bytes.
 void write_exr(const std::string& path, std::size_t columns, std::size_t lines, const std::vector<Channel>& channels);
 

@@ -96,13 +96,23 @@ void write_file(const std::string& path, const std::vector<std::uint8_t>& bytes)
   if (!closed) fail_and_remove(path, reason());
 }
 
-void write_image(const std::string& path, const EncodeRequest& request) {
+std::vector<std::uint8_t> encode(const std::string& name, const EncodeRequest& request) {
   if (request.columns == 0 || request.lines == 0 || request.channels->empty())
     throw std::invalid_argument("an image without pixels is written");
   std::vector<std::uint8_t> bytes;
   std::string error;
-  if (!codec().encode(request, bytes, error)) fail(path, error);
-  write_file(path, bytes);
+  if (!codec().encode(request, bytes, error)) fail(name, error);
+  return bytes;
+}
+
+std::vector<std::uint8_t> encode_png(const std::string& name, std::size_t columns, std::size_t lines,
+                                     std::span<const std::uint8_t> rgb) {
+  if (rgb.size() != 3 * columns * lines)
+    throw std::invalid_argument("a picture's size differs from its number of levels");
+  std::vector<Channel> channels;
+  const char* names[] = {"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) channels.push_back({names[c], ChannelType::u8, rgb.data() + c, 3});
+  return encode(name, {"png", columns, lines, &channels});
 }
 
 }  // namespace
@@ -114,18 +124,17 @@ const ReadChannel* Image::find(const std::string& name) const {
 }
 
 void write_png(const std::string& path, std::size_t columns, std::size_t lines, std::span<const std::uint8_t> rgb) {
-  if (rgb.size() != 3 * columns * lines)
-    throw std::invalid_argument("a picture's size differs from its number of levels");
-  std::vector<Channel> channels;
-  const char* names[] = {"R", "G", "B"};
-  for (std::size_t c = 0; c < 3; ++c) channels.push_back({names[c], ChannelType::u8, rgb.data() + c, 3});
-  write_image(path, {"png", columns, lines, &channels});
+  write_file(path, encode_png(path, columns, lines, rgb));
+}
+
+std::vector<std::uint8_t> encode_png(std::size_t columns, std::size_t lines, std::span<const std::uint8_t> rgb) {
+  return encode_png("a picture", columns, lines, rgb);
 }
 
 void write_exr(const std::string& path, std::size_t columns, std::size_t lines, const std::vector<Channel>& channels) {
   for (const Channel& channel : channels)
     if (channel.type == ChannelType::u8) throw std::invalid_argument("EXR has no 8-bit channels: " + channel.name);
-  write_image(path, {"exr", columns, lines, &channels});
+  write_file(path, encode(path, {"exr", columns, lines, &channels}));
 }
 
 Image read_image(const std::string& path) {

@@ -9,6 +9,7 @@
 #include "src/report/file_names.h"
 #include "src/report/frames_csv.h"
 #include "src/report/json_report.h"
+#include "src/report/run_page.h"
 #include "src/report/text_file.h"
 #include "src/report/text_report.h"
 
@@ -41,6 +42,8 @@ Contents ResultWriter::write_reports(const Contents& contents, const std::string
   write_text_file(directory_.path(kResolvedScene), scene_toml);
   write_text_file(directory_.path(kFramesCsv), frames_csv(stored.result));
   write_text_file(directory_.path(kReportText), text_report(stored));
+  write_text_file(directory_.path(kReportPage),
+                  run_page(stored, [&](const std::string& name) { return directory_.path(name); }));
   write_text_file(directory_.path(kReportJson), json);
   return stored;
 }
@@ -57,6 +60,7 @@ void rebuild_reports(const std::string& directory, std::string& text) {
   };
   bring_up_to_date(kReportText, text);
   bring_up_to_date(kFramesCsv, frames_csv(contents.result));
+  bring_up_to_date(kReportPage, run_page(contents, [&](const std::string& name) { return directory + '/' + name; }));
 }
 
 }  // namespace rastertlm::report

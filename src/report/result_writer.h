@@ -28,9 +28,9 @@ class ResultWriter {
   std::exception_ptr failure_;
 };
 
-// report.txt and frames.csv of an earlier run made again from its report.json; gives the text. A file that has its
-// bytes already is not touched. Throws InputError where there is no report.json of ours, OutputError where a file
-// cannot be written: then `text` is set all the same.
+// report.txt, frames.csv and report.html of an earlier run made again from its report.json and its pictures; gives the
+// text. A file that has its bytes already is not touched. Throws InputError where there is no report.json of ours, or a
+// picture cannot be read; OutputError where a file cannot be written: then `text` is set all the same.
 void rebuild_reports(const std::string& directory, std::string& text);
 
 }  // namespace rastertlm::report

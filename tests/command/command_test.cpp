@@ -91,8 +91,8 @@ TEST_F(CommandTest, WritesTheFilesOfARun) {
   EXPECT_EQ(names("out"), std::set<std::string>{"scene_machine"});
   EXPECT_EQ(names("out/scene_machine"),
             (std::set<std::string>{"config.resolved.toml", "error_0000.png", "error_0001.png", "frame_0000.exr",
-                                   "frame_0000.png", "frame_0001.exr", "frame_0001.png", "frames.csv", "report.json",
-                                   "report.txt", "scene.resolved.toml"}));
+                                   "frame_0000.png", "frame_0001.exr", "frame_0001.png", "frames.csv", "report.html",
+                                   "report.json", "report.txt", "scene.resolved.toml"}));
   const std::string report = file_text(in_work("out/scene_machine/report.txt"));
   EXPECT_EQ(report.substr(0, report.find('\n')), outcome.out.substr(0, outcome.out.find('\n'))) << "the same answer";
   EXPECT_THAT(file_text(in_work("out/scene_machine/frame_0000.png")), StartsWith("\x89PNG"));
@@ -102,7 +102,7 @@ TEST_F(CommandTest, WritesTheFilesOfARun) {
 TEST_F(CommandTest, WithoutReferenceThereIsNoError) {
   ASSERT_EQ(render({"--no-reference", "--out", "o"}).exit_code, 0);
   EXPECT_EQ(names("o"), (std::set<std::string>{"config.resolved.toml", "frame_0000.exr", "frame_0000.png", "frames.csv",
-                                               "report.json", "report.txt", "scene.resolved.toml"}));
+                                               "report.html", "report.json", "report.txt", "scene.resolved.toml"}));
 }
 
 TEST_F(CommandTest, TwoRunsGiveTheSameBytes) {
@@ -168,14 +168,17 @@ TEST_F(CommandTest, ReportMakesTheTextsAgain) {
   ASSERT_EQ(render({"--out", "o"}).exit_code, 0);
   const std::string text = file_text(in_work("o/report.txt"));
   const std::string csv = file_text(in_work("o/frames.csv"));
+  const std::string page = file_text(in_work("o/report.html"));
   EXPECT_EQ(run({"report", "o"}).out, text);
   std::filesystem::remove(in_work("o/report.txt"));
   write("o/frames.csv", "old");
+  write("o/report.html", "old");
   const Outcome again = run({"report", "o/"});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(again.out, text);
   EXPECT_EQ(file_text(in_work("o/report.txt")), text);
   EXPECT_EQ(file_text(in_work("o/frames.csv")), csv);
+  EXPECT_TRUE(file_text(in_work("o/report.html")) == page);
 }
 
 TEST_F(CommandTest, ReportRefusesWhatIsNoRun) {

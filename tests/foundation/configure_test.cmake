@@ -1,6 +1,7 @@
 # Configure fails with one clear sentence. Run as: cmake -D SOURCE=.. -D WORK=.. -D CASE=.. [-D NAME=.. -D PACKAGE=..] -P configure_test.cmake
 #   find_package        CMake's package NAME, of Debian's PACKAGE, is not found
 #   pkg_config          pkg-config's module NAME, of Debian's PACKAGE, is not found
+#   file                the file in the variable NAME, of Debian's PACKAGE, is not there
 #   no_pkg_config       pkg-config itself is not found
 #   systemc_standard    SystemC is found, but was compiled as C++20
 cmake_minimum_required(VERSION 3.25)
@@ -45,6 +46,9 @@ if(CASE STREQUAL "find_package")
 elseif(CASE STREQUAL "pkg_config")
   copy_modules_without(${NAME})
   list(APPEND environment PKG_CONFIG_LIBDIR=${WORK}/modules)
+  set(sentence "${missing}")
+elseif(CASE STREQUAL "file")
+  list(APPEND arguments -D ${NAME}=${WORK}/none)
   set(sentence "${missing}")
 elseif(CASE STREQUAL "no_pkg_config")
   list(APPEND arguments -D PKG_CONFIG_EXECUTABLE=${WORK}/none)

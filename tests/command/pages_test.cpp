@@ -1,0 +1,55 @@
+// report.html of runs, opened in a real browser (tests/pages): what it shows is what the run's files hold, its console
+// stays empty and nothing leaves it. Its pictures are kept in the build's artefacts.
+#include <gmock/gmock.h>
+
+#include "tests/support/browser.h"
+#include "tests/support/run_program.h"
+
+namespace rastertlm::test {
+namespace {
+
+constexpr std::uintmax_t kMostBytesOfARun = 3'000'000;
+
+class PagesTest : public ProgramTest {
+ protected:
+  void expect_good_page(const std::string& directory, const std::string& name) const {
+    const Outcome outcome = check_page("check_run_page.py", {in_work(directory), RASTERTLM_ARTEFACTS, name});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  }
+  static std::string config(const std::string& name) { return std::string(RASTERTLM_SOURCE_DIR) + "/configs/" + name; }
+};
+
+TEST_F(PagesTest, RunOfTheObjectMachine) {
+  const Outcome outcome =
+      run({"render", config("machines/imogene.toml"), config("scenes/teapot.toml"), "--frames", "2", "--out", "o"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_LT(std::filesystem::file_size(in_work("o/report.html")), kMostBytesOfARun);
+  expect_good_page("o", "run_imogene");
+}
+
+TEST_F(PagesTest, RunOfTheQuadraticMachine) {
+  const Outcome outcome =
+      run({"render", config("machines/quadratic.toml"), config("scenes/sphere_168.toml"), "--out", "o"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_LT(std::filesystem::file_size(in_work("o/report.html")), kMostBytesOfARun);
+  expect_good_page("o", "run_quadratic");
+}
+
+// A name that is a script stays a name, in the page and in the file.
+TEST_F(PagesTest, NamesAreNoScripts) {
+  write("machine.toml", kSmallMachine);
+  std::string scene = one_triangle();
+  const std::string name = "clay";
+  const std::string script = "</script><script>window.intruder = 1</script><img src=x onerror='window.intruder = 2'>";
+  for (std::size_t at = scene.find('"' + name + '"'); at != std::string::npos; at = scene.find('"' + name + '"'))
+    scene.replace(at + 1, name.size(), script);
+  write("scene.toml", scene);
+  const Outcome outcome = run({"render", "machine.toml", "scene.toml", "--out", "o"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(file_text(in_work("o/report.html")), testing::Not(testing::HasSubstr(script)));
+  EXPECT_THAT(file_text(in_work("o/report.html")), testing::HasSubstr("window.intruder = 1"));
+  expect_good_page("o", "run_script_in_a_name");
+}
+
+}  // namespace
+}  // namespace rastertlm::test
