@@ -28,6 +28,7 @@ FrameStoreModule::FrameStoreModule(const sc_core::sc_module_name& name, const Fr
       timing_(timing),
       schedule_(parameters.access_ps(), parameters.scan_out == ScanOut::shared ? std::optional(timing) : std::nullopt,
                 layout.lines, layout.line_accesses()),
+      clock_(Clock::from_period_ns("memory access", parameters.access_ns)),
       link_(link),
       quick_(keeps_up(parameters, layout, pixel_ps)) {
   rgb_.resize(layout.columns);
@@ -54,6 +55,8 @@ void FrameStoreModule::begin_frame(SpanPayload& payload, sc_core::sc_time& delay
   payload.keeps_up = quick_;
   const std::uint64_t now = stream::picoseconds_now();
   std::uint64_t free = std::max<std::uint64_t>(now + delay.value(), buffer_free_ps_);
+  begun_ps_ = free;
+  begun_accesses_ = drawing_accesses_ + clear_accesses_;
   if (parameters_.clear) {
     clear_accesses_ += layout_.clear_accesses();
     free = schedule_.serve(free, layout_.clear_accesses());
@@ -84,12 +87,32 @@ void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay)
 // or at once where it does not wait for the screen, which then shows it half drawn as well.
 void FrameStoreModule::end_frame(SpanPayload& payload, const sc_core::sc_time& delay) {
   const std::uint64_t drawn = stream::picoseconds_now() + delay.value();
+  note_starved(drawn);
   const bool waits = parameters_.swap == Swap::retrace;
   payload.shown_ps = waits ? retrace_from(drawn) : drawn;
   const bool once_shown = waits && parameters_.buffers == 1;
   buffer_free_ps_ = once_shown ? retrace_from(payload.shown_ps + 1) : payload.shown_ps;
   store_.swap();
   scan_out(payload.frame, payload.shown_ps);
+}
+
+// Of the time in which a frame was drawn, what nobody used.
+void FrameStoreModule::note_starved(std::uint64_t drawn_ps) {
+  if (drawn_ps <= begun_ps_) return;
+  const std::uint64_t passed = (drawn_ps - begun_ps_) / parameters_.access_ps();
+  const std::uint64_t used = drawing_accesses_ + clear_accesses_ - begun_accesses_ + scan_out_accesses(drawn_ps) -
+                             scan_out_accesses(begun_ps_);
+  if (passed > used) starved_ += passed - used;
+}
+
+stream::Occupancy FrameStoreModule::occupancy(std::uint64_t until_ps) const {
+  stream::Occupancy occupancy;
+  occupancy.busy = drawing_accesses_ + clear_accesses_ + scan_out_accesses(until_ps);
+  // A burst that falls due at the very end counts whole.
+  occupancy.cycles = std::max(occupancy.busy, until_ps / parameters_.access_ps());
+  occupancy.starved = std::min(starved_, occupancy.cycles - occupancy.busy);
+  occupancy.idle = occupancy.cycles - occupancy.busy - occupancy.starved;
+  return occupancy;
 }
 
 std::uint64_t FrameStoreModule::retrace_from(std::uint64_t picoseconds) const {

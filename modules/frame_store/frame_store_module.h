@@ -12,6 +12,7 @@
 #include "modules/frame_store/span_payload.h"
 #include "modules/stream/line_payload.h"
 #include "modules/stream/link.h"
+#include "modules/stream/occupancy.h"
 #include "modules/video/timing.h"
 
 namespace rastertlm::frame_store {
@@ -33,6 +34,10 @@ class FrameStoreModule : public sc_core::sc_module {
   std::uint64_t scan_out_accesses(std::uint64_t until_ps) const {
     return schedule_.bursts_before(until_ps) * layout_.line_accesses();
   }
+  // Where the memory's time went until then, in accesses of the busiest bank: busy with what the three count, starved
+  // where a frame was being drawn and the span unit asked for nothing, idle otherwise. It never waits for anybody.
+  stream::Occupancy occupancy(std::uint64_t until_ps) const;
+  const Clock& clock() const { return clock_; }
   const MemorySchedule& schedule() const { return schedule_; }
   bool never_waited_for() const { return quick_; }
 
@@ -41,6 +46,7 @@ class FrameStoreModule : public sc_core::sc_module {
   void begin_frame(SpanPayload& payload, sc_core::sc_time& delay);
   void draw(const SpanPayload& payload, sc_core::sc_time& delay);
   void end_frame(SpanPayload& payload, const sc_core::sc_time& delay);
+  void note_starved(std::uint64_t drawn_ps);
   void scan_out(std::uint64_t frame, std::uint64_t shown_ps);
   std::uint64_t retrace_from(std::uint64_t picoseconds) const;
 
@@ -49,6 +55,7 @@ class FrameStoreModule : public sc_core::sc_module {
   MemoryLayout layout_;
   video::Timing timing_;
   MemorySchedule schedule_;
+  Clock clock_;  // an access a cycle
   stream::Link& link_;
   bool quick_;
   std::vector<std::uint64_t> won_;  // of a span, a bit a pixel; empty where nobody asks
@@ -58,6 +65,9 @@ class FrameStoreModule : public sc_core::sc_module {
   std::uint64_t buffer_free_ps_ = 0;
   std::uint64_t drawing_accesses_ = 0;
   std::uint64_t clear_accesses_ = 0;
+  std::uint64_t begun_ps_ = 0;        // the frame that is drawn: its clear, or its first span
+  std::uint64_t begun_accesses_ = 0;  // of drawing and clears until then
+  std::uint64_t starved_ = 0;
 };
 
 }  // namespace rastertlm::frame_store

@@ -64,6 +64,7 @@ void SetUpProcessorModule::send(const span_unit::TriangleLoad& load, SetUpFrame&
   const std::uint64_t words = work_.words_of(load);
   const Cycles writing = cost_.bus(words);
   payload_.load = &load;
+  payload_.words = words;
   payload_.write_ps = cost_.clock().picoseconds(writing);
   payload_.blocked_ps = 0;
   transport(LoadPayload::Kind::triangle);

@@ -15,7 +15,8 @@ struct LoadPayload : tlm::tlm_generic_payload {
   Kind kind = Kind::triangle;
   std::uint64_t frame = 0;
   const TriangleLoad* load = nullptr;  // triangle
-  std::uint64_t write_ps = 0;          // triangle: what its words take on the bus
+  std::uint64_t words = 0;             // triangle: that are written
+  std::uint64_t write_ps = 0;          // triangle: what they take on the bus
   std::uint64_t blocked_ps = 0;        // triangle, set by the unit: how long no register set was free
   std::uint64_t shown_ps = 0;          // end, set by the frame store: when the frame is shown
 };

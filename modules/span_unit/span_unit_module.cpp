@@ -48,11 +48,13 @@ void SpanUnitModule::begin_frame(LoadPayload&, sc_core::sc_time& delay) {
   if (dealt_) dealt_->begin_frame(buffer_free_);
 }
 
-void SpanUnitModule::end_frame(LoadPayload& payload, sc_core::sc_time&) {
+// The frame is whole when the last triangle has been drawn, and the host has said that there is no other.
+void SpanUnitModule::end_frame(LoadPayload& payload, sc_core::sc_time& delay) {
   if (dealt_) free_ = dealt_->finish();
   payload_.kind = SpanPayload::Kind::end;
   const std::uint64_t now = stream::picoseconds_now();
-  sc_core::sc_time until = stream::to_time(std::max(end_ps(), now) - now);
+  const std::uint64_t told = now + delay.value();
+  sc_core::sc_time until = stream::to_time(std::max(end_ps(), told) - now);
   out->b_transport(payload_, until);
   payload.shown_ps = payload_.shown_ps;
 }
@@ -75,6 +77,7 @@ void SpanUnitModule::draw(LoadPayload& payload, sc_core::sc_time& delay) {
   const std::uint64_t written = begin + payload.write_ps;
   delay = stream::to_time(written - now);
   ++loads_received_;
+  words_loaded_ += payload.words;
   if (dealt_) return;
   const std::uint64_t there = std::max(clock_.cycles_at(written).count(), free_);
   const std::uint64_t start = std::max(there, buffer_free_);

@@ -28,6 +28,7 @@ class SpanUnitModule : public sc_core::sc_module {
                  std::uint32_t lines, stream::Link& link);
 
   std::uint64_t loads_received() const { return loads_received_; }
+  std::uint64_t words_loaded() const { return words_loaded_; }
   // From the first frame's start to the end of the unit's last triangle; of each unit that triangles are dealt to, else
   // of all together.
   std::vector<stream::Occupancy> occupancies() const;
@@ -57,6 +58,7 @@ class SpanUnitModule : public sc_core::sc_module {
   std::deque<std::uint64_t> starts_ps_;  // of the last shadow_sets triangles
   bool memory_keeps_up_ = false;         // as the store has said for the frame
   std::uint64_t loads_received_ = 0;
+  std::uint64_t words_loaded_ = 0;
   std::uint64_t blocked_by_buffer_ = 0;
   stream::Occupancy occupancy_;
 };

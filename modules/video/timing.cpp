@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -49,6 +50,18 @@ Timing timing(const VideoParameters& parameters) {
   t.vertical_retrace = t.frame - t.line * lines;
   t.horizontal_blanking = t.line - Cycles(columns);
   return t;
+}
+
+std::uint64_t Timing::pixels_sent(Cycles clocks, std::uint64_t lines) const {
+  const std::uint64_t columns = (line - horizontal_blanking).count();
+  const std::uint64_t within = clocks.count() % frame.count();
+  std::uint64_t pixels = clocks.count() / frame.count() * lines * columns;
+  if (within <= vertical_retrace.count()) return pixels;
+  const std::uint64_t shown = within - vertical_retrace.count();
+  const std::uint64_t whole = std::min(shown / line.count(), lines);
+  pixels += whole * columns;
+  if (whole < lines) pixels += shown % line.count() - std::min(shown % line.count(), horizontal_blanking.count());
+  return pixels;
 }
 
 }  // namespace rastertlm::video

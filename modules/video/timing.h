@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "modules/video/parameters.h"
 #include "src/base/units.h"
@@ -26,6 +27,8 @@ struct Timing {
   // Lines of the picture from the one that was last shown to this one; the first is one on from what the retrace
   // leaves.
   std::uint64_t lines_advanced(std::size_t line_number) const { return line_number == 0 ? 1 : fields; }
+  // Pixels that the display has been sent in the first `clocks` clocks, where the video is not interlaced.
+  std::uint64_t pixels_sent(Cycles clocks, std::uint64_t lines) const;
   double obtained_refresh_hz() const { return clock.frequency_hz() / static_cast<double>(frame.count()); }
 };
 

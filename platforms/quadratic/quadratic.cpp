@@ -122,8 +122,25 @@ void Quadratic::note_drawn(const host::SetUpFrame& frame) {
                   now.empty_lines - drawn_before_.empty_lines, now.carries - drawn_before_.carries,
                   now.pixels - drawn_before_.pixels,           now.off_screen - drawn_before_.off_screen};
   drawn_before_ = now;
+  shown_.work = work_since_last();
   if (options_.observe) store_.observe(pixels_);
   waiting_ = true;
+}
+
+FrameWork Quadratic::work_since_last() {
+  FrameWork work;
+  const std::vector<stream::Occupancy> units = span_unit_->occupancies();
+  busy_before_.resize(units.size());
+  for (std::size_t k = 0; k < units.size(); ++k) {
+    work.span_cycles = std::max(work.span_cycles, units[k].busy - busy_before_[k]);
+    busy_before_[k] = units[k].busy;
+  }
+  const std::uint64_t waiting = span_unit_->memory_cycles();
+  work.waiting_cycles = (waiting - waiting_before_) / units.size();
+  waiting_before_ = waiting;
+  work.accesses = frame_store_->drawing_accesses() - accesses_before_;
+  accesses_before_ = frame_store_->drawing_accesses();
+  return work;
 }
 
 void Quadratic::run() {
@@ -167,6 +184,8 @@ void Quadratic::check_identities() const {
   }
   require("span unit", loads, span_unit_->loads_received(), "loads sent = loads received");
   require("set-up processor", words, set_up_processor_->words_sent(), "words computed = words sent");
+  require("span unit", words, span_unit_->words_loaded(), "words sent = words loaded");
+  require("bus", cost_.bus_words(words), links_.front().words(), "bus words of what was sent = bus words that crossed");
 }
 
 }  // namespace rastertlm::quadratic

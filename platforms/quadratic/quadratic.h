@@ -23,6 +23,13 @@ struct Options {
   bool observe = true;       // frames have all their planes; without, their levels alone
 };
 
+// What drawing a frame took.
+struct FrameWork {
+  std::uint64_t span_cycles = 0;     // of the busiest span unit, in its clock: loads, lines, pixels
+  std::uint64_t waiting_cycles = 0;  // of a span unit for the memory, the mean of all
+  std::uint64_t accesses = 0;        // of the memory's busiest bank, for spans
+};
+
 // A frame that is shown, and how it came to be.
 struct ShownFrame {
   host::SetUpFrame set_up;
@@ -30,6 +37,7 @@ struct ShownFrame {
   std::uint64_t last_pixel_ps = 0;
   std::uint64_t drawn_ps = 0;     // when its last pixel was in the store
   span_unit::SpanCounters drawn;  // of this frame
+  FrameWork work;
 };
 
 class Quadratic {
@@ -53,12 +61,15 @@ class Quadratic {
   const frame_store::FrameStoreModule& frame_store() const { return *frame_store_; }
   const std::deque<stream::Link>& links() const { return links_; }
   std::vector<ShownFrame> const& frames() const { return frames_; }
+  // When the last frame is shown: what was simulated, ends there.
+  std::uint64_t end_ps() const { return frames_.back().set_up.shown_ps; }
   // Frames completed a second: of the frames after the first, where there are three or more; else of what bounds them.
   double frames_per_second() const;
 
  private:
   void check_scene() const;
   void note_drawn(const host::SetUpFrame& frame);
+  FrameWork work_since_last();
   void check_identities() const;
 
   const Machine& machine_;
@@ -80,6 +91,9 @@ class Quadratic {
   ShownFrame shown_;
   frame::Frame pixels_;
   span_unit::SpanCounters drawn_before_;
+  std::vector<std::uint64_t> busy_before_;  // of each span unit
+  std::uint64_t waiting_before_ = 0;
+  std::uint64_t accesses_before_ = 0;
   bool waiting_ = false;  // shown_ has not been handed on
   std::vector<ShownFrame> frames_;
 };

@@ -93,7 +93,8 @@ void visit(Visitor& v, run::Answer& a, const Kinds& kinds) {
 template <class Visitor>
 void visit(Visitor& v, run::UnitFigures& u) {
   v.value("name", {"", kSetting, "the unit"}, u.name);
-  v.value("clock_hz", {"Hz", kSetting, "the unit's clock, in whose cycles the others are"}, u.clock_hz);
+  v.value("clock", {"", kSetting, "the unit's clock, in whose cycles the others are"}, u.clock);
+  v.value("clock_hz", {"Hz", kSetting, "of that clock"}, u.clock_hz);
   v.value("cycles", {"cycles", kCount, "of the whole run: busy + starved + blocked + idle"}, u.cycles);
   v.value("busy", {"cycles", kCount, "in which it worked"}, u.busy);
   v.value("starved", {"cycles", kCount, "in which it waited for its input"}, u.starved);

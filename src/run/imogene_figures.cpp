@@ -13,8 +13,8 @@ using imogene::Imogene;
 
 UnitFigures figures(const std::string& name, const Clock& clock, const stream::Occupancy& occupancy) {
   occupancy.check(name);
-  return {name,          clock.frequency_hz(), occupancy.cycles, occupancy.busy, occupancy.starved, occupancy.blocked,
-          occupancy.idle};
+  return {name,           clock.frequency_hz(), occupancy.cycles, occupancy.busy, occupancy.starved, occupancy.blocked,
+          occupancy.idle, clock.name()};
 }
 
 // A unit of the display side works in step with the pixel clock: it is busy or idle, and never waits.

@@ -14,6 +14,7 @@
 #include "src/reference/sphere_renderer.h"
 #include "src/run/host_figures.h"
 #include "src/run/inputs.h"
+#include "src/run/quadratic_budgets.h"
 #include "src/run/quadratic_figures.h"
 
 namespace rastertlm::run {

@@ -45,6 +45,7 @@ struct UnitFigures {
   std::uint64_t starved = 0;
   std::uint64_t blocked = 0;
   std::uint64_t idle = 0;
+  std::string clock{};  // its name
 };
 
 struct Budget {

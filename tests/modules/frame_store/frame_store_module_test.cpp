@@ -242,6 +242,33 @@ TEST(FrameStoreModule, LinesOfTheScreenGoFirstAtASharedPort) {
   EXPECT_EQ(at.module.scan_out_accesses(kVideoFrame), kColumns * kLines);
 }
 
+// Busy with its accesses, starved while a frame is drawn and nobody asks, idle between frames.
+TEST(FrameStoreModule, TellsWhereItsTimeWent) {
+  constexpr std::uint64_t kClear = kColumns * kLines;
+  FrameStoreParameters parameters = memory_of_30_ns();
+  Machine own("own", parameters);
+  parameters.scan_out = ScanOut::shared;
+  Machine shared("shared", parameters);
+  simulated([&] {
+    for (Machine* m : {&own, &shared}) {
+      const std::uint64_t may = m->begin(0, 10 * kAccess);
+      ASSERT_EQ(may, (10 + kClear) * kAccess);    // before the first line of the screen
+      m->draw(0, 0, 4, 9, 1, may + 5 * kAccess);  // eight accesses
+      EXPECT_EQ(m->end(0, may + 20 * kAccess), kVideoFrame);
+    }
+  });
+  const std::uint64_t end = 2 * kVideoFrame;
+  const stream::Occupancy alone = own.module.occupancy(end);
+  EXPECT_EQ(alone.cycles, end / kAccess);
+  EXPECT_EQ(alone.busy, kClear + 8);
+  EXPECT_EQ(alone.starved, 20U - 8);
+  EXPECT_EQ(alone.idle, end / kAccess - kClear - 20);
+  const stream::Occupancy with_screen = shared.module.occupancy(end);
+  EXPECT_EQ(with_screen.busy, kClear + 8 + 2 * kColumns * kLines);  // two screens were read
+  EXPECT_EQ(with_screen.starved, 20U - 8);
+  EXPECT_EQ(with_screen.idle, end / kAccess - kClear - 20 - 2 * kColumns * kLines);
+}
+
 // A memory that a span unit need never wait for is not asked, and counts the same; asked, it would keep up. Where a
 // pixel takes a picosecond less it is asked.
 class KeepsUp : public testing::TestWithParam<std::pair<std::int64_t, std::int64_t>> {};  // bits, banks

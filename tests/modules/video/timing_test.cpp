@@ -49,6 +49,19 @@ TEST(VideoTiming, ThePapersScreen) {
   EXPECT_DOUBLE_EQ(t.obtained_refresh_hz(), 1.0 / (333'333 * 60e-9));
 }
 
+// Against counting clock by clock.
+TEST(VideoTiming, SendsPixelsOutsideTheBlanking) {
+  const Timing t = timing(screen(7, 3, 10000, 1000, 20));  // 100 clocks: 22 of retrace, three lines of 26
+  ASSERT_EQ(t.frame, Cycles(100));
+  ASSERT_EQ(t.vertical_retrace, Cycles(22));
+  std::uint64_t sent = 0;
+  for (std::uint64_t clock = 0; clock < 350; ++clock) {
+    EXPECT_EQ(t.pixels_sent(Cycles(clock), 3), sent) << clock;
+    const std::uint64_t within = clock % 100;
+    if (within >= 22 && (within - 22) % 26 >= 19) ++sent;
+  }
+}
+
 // 16 MHz: 320,000 = 512 x 606 + 9,600 + 128.
 TEST(VideoTiming, SixteenMegahertz) {
   const Timing t = timing(screen(512, 512, 50, 62.5, 600));

@@ -85,7 +85,7 @@ inline run::Result example_result() {
   r.lines = 512;
   r.obtained_refresh_hz = 50.00005;
   r.answer = example_answer();
-  r.units = {{"shading", 1e9 / 60.0, 666'666, 524'288, 100'000, 42'000, 378}};
+  r.units = {{"shading", 1e9 / 60.0, 666'666, 524'288, 100'000, 42'000, 378, "pixel clock"}};
   r.budgets = {{"line_start", 21.0, 119.0, "cycles", true, true, "004, section 4.2", "object_processor.slice_bits"},
                {"dot_table.load_68000", 650.25, 600.0, "us", false, false, "004, table 5.3", "loader.kind"}};
   r.deadlines = example_deadlines();

@@ -1,0 +1,204 @@
+#include "src/run/quadratic_budgets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "modules/span_unit/parameters.h"
+#include "src/run/budget.h"
+#include "src/run/drawing_limits.h"
+
+namespace rastertlm::run {
+namespace {
+
+using quadratic::Quadratic;
+
+constexpr double kPicosecond = 1e-12;
+constexpr double kMicroseconds = 1e6;
+
+// A pixel of the span units together.
+double pixel_ns(const quadratic::Machine& m) {
+  return m.span_unit.clock_ns * static_cast<double>(m.span_unit.pixel_cycles) / static_cast<double>(m.span_unit.units);
+}
+
+std::uint64_t most_steps(const quadratic::Machine& m) {
+  return span_unit::longest_iteration(m.span_unit, static_cast<std::uint64_t>(m.video.columns),
+                                      static_cast<std::uint64_t>(m.video.lines));
+}
+
+// Of the slowest frame of the run, unit by unit.
+FrameLoad largest_load(const Quadratic& platform) {
+  FrameLoad most;
+  for (const quadratic::ShownFrame& frame : platform.frames()) {
+    const FrameLoad load = frame_load(platform, frame);
+    if (load.set_up() > most.set_up()) {
+      most.arithmetic = load.arithmetic;
+      most.bus = load.bus;
+    }
+    most.clear = load.clear;
+    most.span_unit = std::max(most.span_unit, load.span_unit);
+    most.drawing = std::max(most.drawing, load.drawing);
+    most.memory = std::max(most.memory, load.memory);
+    most.accesses = std::max(most.accesses, load.accesses);
+    most.pixels = std::max(most.pixels, load.pixels);
+  }
+  return most;
+}
+
+void add_frame_budgets(const Quadratic& platform, const FrameLoad& load, std::vector<Budget>& budgets) {
+  const double frame_us = kMicroseconds * frame_seconds(platform);
+  const auto add = [&](const char* name, double seconds, const char* source, const char* moved_by) {
+    budgets.push_back(budget(name, kMicroseconds * seconds, frame_us, "us", source, moved_by));
+  };
+  add("set_up.frame", load.set_up(), "arithmetic and bus words of a frame's triangles",
+      "host.*, set_up.*, video.refresh_hz");
+  add("bus.frame", load.bus, "bus words of a frame's triangles",
+      "host.bus_cycles_per_word, host.bus_bits, host.clock_hz, video.refresh_hz");
+  add("span_unit.frame", load.span_unit, "loads, line changes and pixels of a frame", "span_unit.*, video.refresh_hz");
+  add("frame_store.frame", load.memory,
+      "accesses of a frame times access time, bursts of a shared screen between them: clear, depth tests, writes",
+      "frame_store.*, video.refresh_hz");
+  add("drawing.frame", load.cleared_and_drawn(),
+      "the clear, then span by span what takes longer, the span unit or the memory",
+      "span_unit.*, frame_store.*, video.refresh_hz");
+}
+
+// What the machine could draw, by whom it is limited; and what it could were all of it whole lines that win.
+void add_complexity(const Quadratic& platform, std::vector<Budget>& budgets) {
+  const WorstFrame worst = worst_frame(platform);
+  const auto add = [&](const std::string& name, double screens, const std::string& source, const std::string& moved_by,
+                       bool applies) {
+    budgets.push_back(budget(name, worst.complexity, screens, "screens", source, moved_by, applies));
+  };
+  if (std::isfinite(worst.least().screens))
+    add("depth_complexity", worst.least().screens,
+        fmt::format("the least of what follows: {}, limited by the {}", worst.least().name, worst.least().unit),
+        worst.least().moved_by, true);
+  for (const ComplexityLimit& limit : worst.limits)
+    if (std::isfinite(limit.screens))
+      add("depth_complexity." + limit.name, limit.screens, limit.formula, limit.moved_by, true);
+  const quadratic::Machine& m = platform.machine();
+  const double frame_ns = 1e9 * frame_seconds(platform);
+  const auto screen = static_cast<double>(m.video.columns * m.video.lines);
+  add("depth_complexity.pixels_alone", frame_ns / (pixel_ns(m) * screen),
+      "frame / pixel of the span unit, in screens: no clear, no load, no line change",
+      "span_unit.clock_ns, span_unit.pixel_cycles, span_unit.units, video.*", false);
+  add("depth_complexity.all_won", memory_limits(platform).complexity_within(frame_seconds(platform)),
+      "(accesses of a frame - clear) / (reads and writes of a screen): whole lines, the farthest first",
+      "frame_store.*, video.*", false);
+}
+
+void add_access(const Quadratic& platform, const FrameLoad& load, std::vector<Budget>& budgets) {
+  const quadratic::Machine& m = platform.machine();
+  const frame_store::MemoryLimits memory = memory_limits(platform);
+  budgets.push_back(budget("frame_store.access", m.frame_store.access_ns,
+                           memory.access_ns_within(load.accesses, frame_seconds(platform)), "ns",
+                           "an access; the slowest with which a frame's fit it, what a shared screen reads left out",
+                           "frame_store.*, video.refresh_hz"));
+  budgets.push_back(budget("frame_store.access_of_pixel", m.frame_store.access_ns,
+                           memory.access_ns_of_pixel(pixel_ns(m)), "ns",
+                           "an access; the slowest that keeps up with the span unit where every pixel wins",
+                           "frame_store.width_bits, frame_store.banks, frame_store.depth_test, span_unit.clock_ns, "
+                           "span_unit.pixel_cycles, span_unit.units",
+                           false));
+}
+
+// Drawing is the span unit's work, and what the memory makes of it: whichever takes longer is in the way.
+Bottleneck bottleneck_of(const quadratic::Machine& m, const FrameLoad& load, double seconds) {
+  const double drawing = load.cleared_and_drawn() / seconds;
+  const double set_up = load.set_up() / seconds;
+  const bool in_turn = draws_in_turn_with_screen(m);
+  // Drawn in some video frames, shown in one more.
+  const double turn = in_turn ? std::ceil(drawing) + 1.0 : drawing;
+  if (set_up > turn) return {"set-up processor", load.bus_is_slower() ? "bus words" : "arithmetic and bus", set_up};
+  if (in_turn) return {"frame store", "one buffer, drawn and shown in turn", turn};
+  if (load.memory_is_slower()) return {"frame store", "memory accesses", drawing};
+  const char* const after_clear = "loads, lines and pixels, after the clear";
+  return {"span unit", load.clear > 0.0 ? after_clear : "loads, lines and pixels", drawing};
+}
+
+const char* what_waits(const quadratic::Machine& m) {
+  if (draws_in_turn_with_screen(m))
+    return "the one buffer is drawn in one video frame and shown in the next; it moves with frame_store.buffers, "
+           "frame_store.swap";
+  return m.frame_store.swap == frame_store::Swap::retrace
+             ? "set-up and drawing wait for each other: together they take longer than a frame; it moves with "
+               "span_unit.shadow_sets, frame_store.swap"
+             : "set-up and drawing wait for each other: together they take longer than a frame; it moves with "
+               "span_unit.shadow_sets, frame_store.buffers";
+}
+
+}  // namespace
+
+std::vector<Budget> quadratic_budgets(const Quadratic& platform) {
+  const quadratic::Machine& m = platform.machine();
+  const FrameLoad load = largest_load(platform);
+  std::vector<Budget> budgets;
+  add_frame_budgets(platform, load, budgets);
+  add_complexity(platform, budgets);
+  add_access(platform, load, budgets);
+  const auto screen = static_cast<double>(m.video.columns * m.video.lines);
+  budgets.push_back(budget("span_unit.screen", 1e-3 * pixel_ns(m) * screen, kMicroseconds / m.video.refresh_hz, "us",
+                           "000/001, section 7: the whole screen once, a pixel a clock",
+                           "span_unit.clock_ns, span_unit.pixel_cycles, span_unit.units, video.*", false));
+  if (m.set_up.method != ShadingMethod::gouraud)
+    budgets.push_back(budget("span_unit.fraction", span_unit::fraction_bound(m.span_unit.fraction_bits, most_steps(m)),
+                             0.5, "levels",
+                             "2^-(bits + 1) (k^2 + k + 2) / 2, k the steps across the whole screen (proved, attained)",
+                             "span_unit.fraction_bits, video.*", false));
+  return budgets;
+}
+
+Answer quadratic_answer(const Quadratic& platform, const std::vector<Budget>& budgets) {
+  const quadratic::Machine& m = platform.machine();
+  const FrameLoad load = largest_load(platform);
+  const video::Timing& timing = platform.timing();
+  Answer answer;
+  answer.required_rate_hz = m.video.refresh_hz;
+  answer.display_rate_hz = timing.obtained_refresh_hz();
+  answer.frame_rate_hz = answer.update_rate_hz = platform.frames_per_second();
+  answer.bottleneck = bottleneck_of(m, load, frame_seconds(platform));
+  answer.headroom = 1.0 / answer.bottleneck.utilisation - 1.0;
+  const quadratic::ShownFrame& last = platform.frames().back();
+  const std::uint64_t begin = last.set_up.begin_ps;
+  answer.latency_first_pixel_us = static_cast<double>(last.first_pixel_ps - begin) * 1e-6;
+  answer.latency_last_pixel_us = static_cast<double>(last.last_pixel_ps - begin) * 1e-6;
+  answer.latency_frames = static_cast<std::uint64_t>(
+      std::ceil(static_cast<double>(last.set_up.shown_ps - begin) * kPicosecond * answer.display_rate_hz));
+  // Frames are shown at retraces: a rate just below the display's may be one frame less over the run.
+  answer.sustained = answer.frame_rate_hz >= answer.required_rate_hz * (1 - 1e-9);
+  for (const Budget& b : budgets)
+    if (b.applies && !b.fits && b.unit == "us")
+      answer.limits.push_back(fmt::format("{}: a frame needs {:.6g} us and has {:.6g} us; it moves with {}", b.name,
+                                          b.used, b.available, b.moved_by));
+  if (answer.limits.empty() && !answer.sustained) answer.limits.emplace_back(what_waits(m));
+  return answer;
+}
+
+std::vector<std::string> quadratic_warnings(const Quadratic& platform) {
+  std::vector<std::string> warnings;
+  const quadratic::Machine& m = platform.machine();
+  const double bound = span_unit::fraction_bound(m.span_unit.fraction_bits, most_steps(m));
+  constexpr double kHalfALevel = 0.5;
+  if (m.set_up.method != ShadingMethod::gouraud && bound > kHalfALevel)
+    warnings.push_back(
+        fmt::format("{} fraction bits may be off by {:.3g} levels across the screen (span_unit.fraction_bits)",
+                    m.span_unit.fraction_bits, bound));
+  host::SetUpCounts all;
+  for (const quadratic::ShownFrame& frame : platform.frames()) {
+    all.colour += frame.set_up.counts.colour;
+    all.lighting += frame.set_up.counts.lighting;
+  }
+  const auto tell = [&](std::uint64_t count, const char* what) {
+    if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
+  };
+  tell(all.colour.flat_undefined, "triangles are drawn in one colour: the solver had no answer for them");
+  tell(all.colour.flat_low, "triangles lower than 1/64 pixel are drawn in one colour");
+  tell(all.colour.at_limit, "triangles are split no further, and off by more than highlight_test.threshold_levels");
+  tell(all.lighting.clamped_knots, "colours at points are beyond the levels and clamped");
+  tell(all.lighting.not_finite, "colours at points are no numbers and taken as black");
+  return warnings;
+}
+
+}  // namespace rastertlm::run

@@ -1,0 +1,16 @@
+// What a frame of a span unit's machine needs of each resource beside what there is, and what follows for its rate.
+#pragma once
+
+#include <vector>
+
+#include "platforms/quadratic/quadratic.h"
+#include "src/run/result.h"
+
+namespace rastertlm::run {
+
+std::vector<Budget> quadratic_budgets(const quadratic::Quadratic& platform);
+Answer quadratic_answer(const quadratic::Quadratic& platform, const std::vector<Budget>& budgets);
+// Sentences: words that are too narrow for the screen, triangles that are not as their method has them.
+std::vector<std::string> quadratic_warnings(const quadratic::Quadratic& platform);
+
+}  // namespace rastertlm::run
