@@ -56,7 +56,7 @@ std::vector<std::string> effect_cells(const SweepTable& table, const std::string
   if (!s.span) return {name, "-", "", "", "", "", note};
   const bool still = *s.span <= 1e-9 * std::abs(mean);
   return {name,
-          figure_text(still ? 0.0 : *s.span),
+          shown_figure(still ? 0.0 : *s.span),
           mean != 0.0 && !still ? percent(*s.span / std::abs(mean)) : "",
           still ? "" : value_text(table, s.axis, s.least_at),
           still ? "" : value_text(table, s.axis, s.most_at),
@@ -176,7 +176,7 @@ std::string what_if_section(const SweepTable& table, const WhatIf& what_if, doub
                      point_text(table, names, start) + ":";
   for (std::size_t o = 0; o < table.objectives.size(); ++o) {
     const std::string& unit = table.objectives[o].unit;
-    text += fmt::format("{} {} {}{}", o == 0 ? "" : ",", names.objectives[o], figure_text(start.figures[o]),
+    text += fmt::format("{} {} {}{}", o == 0 ? "" : ",", names.objectives[o], shown_figure(start.figures[o]),
                         unit.empty() ? "" : ' ' + in_one_line(unit));
   }
   text += '\n';

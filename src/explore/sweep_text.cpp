@@ -43,7 +43,7 @@ std::vector<std::string> point_cells(const SweepTable& table, const Row& row) {
   std::vector<std::string> cells{std::to_string(row.number)};
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     cells.push_back(in_one_line(table.axes[a].values.at(row.values[a])));
-  for (const auto& figure : row.figures) cells.push_back(figure_text(figure));
+  for (const auto& figure : row.figures) cells.push_back(shown_figure(figure));
   return cells;
 }
 
@@ -85,7 +85,7 @@ std::string difference_text(const SweepTable& table, const Names& names, const R
     if (!text.empty()) text += "; ";
     text += names.objectives[o] + ' ';
     if (!own || !before) {
-      text += figure_text(own) + " for " + figure_text(before);
+      text += shown_figure(own) + " for " + shown_figure(before);
     } else {
       text += change_text(*own - *before, before, in_one_line(table.objectives[o].unit));
     }
@@ -117,11 +117,11 @@ std::string answer_section(const SweepTable& table, const Front& front) {
     const Objective& first = table.objectives.front();
     const auto compared = static_cast<std::size_t>(std::ranges::count(front.compared, true));
     text += fmt::format(": {} {}, the {} of {}{}", names.objectives.front(),
-                        with_unit(figure_text(row.figures.front()), first), wanted_text(first.sense),
+                        with_unit(shown_figure(row.figures.front()), first), wanted_text(first.sense),
                         counted(compared, "point", "points"), met);
     for (std::size_t o = 1; o < table.objectives.size(); ++o)
       text += fmt::format("{} {} {}", o == 1 ? ", with" : ",", names.objectives[o],
-                          with_unit(figure_text(row.figures[o]), table.objectives[o]));
+                          with_unit(shown_figure(row.figures[o]), table.objectives[o]));
   }
   text += ".\n";
   if (table.baseline && *table.baseline == *answer) text += "That is the baseline.\n";
@@ -152,7 +152,7 @@ std::string objectives_section(const SweepTable& table, const Front& front) {
       if (best == nullptr || compare_figures(row->figures[o], best->figures[o], objective.sense) < 0) best = row;
       if (worst == nullptr || compare_figures(row->figures[o], worst->figures[o], objective.sense) > 0) worst = row;
     }
-    const auto text_of = [&](const Row* row) { return row == nullptr ? "-" : figure_text(row->figures[o]); };
+    const auto text_of = [&](const Row* row) { return row == nullptr ? "-" : shown_figure(row->figures[o]); };
     text.row({names.objectives[o], in_one_line(objective.path), in_one_line(objective.unit),
               wanted_text(objective.sense), text_of(best), text_of(worst),
               text_of(table.baseline ? &table.rows.at(*table.baseline) : nullptr)});

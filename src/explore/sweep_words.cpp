@@ -71,13 +71,13 @@ std::string in_one_line(const std::string& text) {
   return line;
 }
 
-std::string figure_text(const std::optional<double>& figure) {
+std::string shown_figure(const std::optional<double>& figure) {
   if (!figure || std::isnan(*figure)) return "-";
   if (std::isinf(*figure)) return *figure > 0.0 ? "infinite" : "-infinite";
   return report::quantity(*figure);
 }
 
-std::string change_text(double change) { return fmt::format("{}{}", change > 0.0 ? "+" : "", figure_text(change)); }
+std::string change_text(double change) { return fmt::format("{}{}", change > 0.0 ? "+" : "", shown_figure(change)); }
 
 std::string change_text(double change, const std::optional<double>& before, const std::string& unit) {
   std::string text = fmt::format("{}{}{}", change_text(change), unit.empty() ? "" : " ", unit);

@@ -27,7 +27,7 @@ std::string heading(const std::string& title);
 // One line, whatever the text holds.
 std::string in_one_line(const std::string& text);
 // 333,333, 0.5094, infinite; "-" where there is none.
-std::string figure_text(const std::optional<double>& figure);
+std::string shown_figure(const std::optional<double>& figure);
 // With its sign: "+20"; "0" for none.
 std::string change_text(double change);
 // The same, its unit where one is given, and what part of the figure before it is where that says anything:
