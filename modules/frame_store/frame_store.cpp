@@ -1,6 +1,7 @@
 #include "modules/frame_store/frame_store.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace rastertlm::frame_store {
 
@@ -11,6 +12,8 @@ FrameStore::FrameStore(const FrameStoreParameters& parameters, const Format& for
                   std::uint32_t{format.background[2]} << 16),
       kernels_(store_kernels(variant)),
       two_(parameters.buffers == 2 && !parameters.clear) {
+  for (std::uint32_t x = 0; x < format.columns; ++x)
+    blank_line_.insert(blank_line_.end(), format.background.begin(), format.background.end());
   resize(buffers_[0]);
   if (two_) resize(buffers_[1]);
 }
@@ -34,7 +37,7 @@ void FrameStore::clear() {
 void FrameStore::begin_line(Buffer& buffer, std::size_t line) const {
   buffer.blank[line] = 0;
   const auto set = [&](std::vector<std::uint32_t>& plane, std::uint32_t value) {
-    if (!plane.empty()) std::fill_n(plane.data() + line * format_.columns, format_.columns, value);
+    if (!plane.empty()) kernels_.fill(plane.data() + line * format_.columns, format_.columns, value);
   };
   set(buffer.levels, background_);
   set(buffer.depth, format_.farthest);
@@ -45,10 +48,11 @@ std::uint32_t FrameStore::draw(std::span<const span_unit::Span> spans, std::uint
                                std::uint64_t* won) {
   Buffer& buffer = buffers_[drawn_];
   std::uint64_t pixels = 0;
-  for (const span_unit::Span& span : spans) {
-    if (span.count > 0 && buffer.blank[span.line] != 0) begin_line(buffer, span.line);
-    pixels += span.count;
-  }
+  for (const span_unit::Span& span : spans) pixels += span.count;
+  // Seldom is any line the first into which something is drawn.
+  if (!spans.empty() && std::memchr(buffer.blank.data() + spans.front().line, 1, spans.size()) != nullptr)
+    for (const span_unit::Span& span : spans)
+      if (span.count > 0 && buffer.blank[span.line] != 0) begin_line(buffer, span.line);
   StoreRequest request;
   request.spans = spans.data();
   request.count = spans.size();
@@ -87,8 +91,7 @@ void FrameStore::scan_out(std::uint32_t line, frame::RgbLine& out) const {
     kernels_.pack(buffer.levels.data() + std::size_t{line} * format_.columns, format_.columns, out.levels.data());
     return;
   }
-  for (std::size_t x = 0; x < format_.columns; ++x)
-    for (std::size_t c = 0; c < 3; ++c) out.levels[3 * x + c] = format_.background[c];
+  std::copy(blank_line_.begin(), blank_line_.end(), out.levels.begin());
 }
 
 void FrameStore::observe(frame::Frame& out) const {

@@ -42,9 +42,10 @@ class FrameStore {
 
   // Of the picture that is drawn: nothing everywhere.
   void clear();
-  // Spans of a triangle, on the screen. Strictly smaller depth wins; equal depth keeps the lower object where numbers
-  // are kept, else the first. Without a depth test what comes last stays. Returns how many pixels won; `won`, where
-  // given and of a single span, a bit a pixel which: from the lowest on, in as many words as hold them.
+  // Spans of a triangle, on the screen, on one line after the other. Strictly smaller depth wins; equal depth keeps the
+  // lower object where numbers are kept, else the first. Without a depth test what comes last stays. Returns how many
+  // pixels won; `won`, where given and of a single span, a bit a pixel which: from the lowest on, in as many words as
+  // hold them.
   std::uint32_t draw(std::span<const span_unit::Span> spans, std::uint32_t object, std::uint32_t material,
                      std::uint64_t* won = nullptr);
   // What was drawn is shown; where there are two buffers, the other one is drawn.
@@ -74,6 +75,7 @@ class FrameStore {
   FrameStoreParameters parameters_;
   Format format_;
   std::uint32_t background_;
+  std::vector<std::uint8_t> blank_line_;  // as it is shown
   const StoreKernels& kernels_;
   // A picture that is cleared before it is drawn leaves no trace of the last but one: then one buffer does for two.
   bool two_;

@@ -33,6 +33,7 @@ struct StoreRequest {
 struct StoreKernels {
   // Returns how many pixels won.
   std::size_t (*draw)(const StoreRequest& request);
+  void (*fill)(std::uint32_t* words, std::size_t count, std::uint32_t value);
   // Three bytes a pixel.
   void (*pack)(const std::uint32_t* levels, std::size_t count, std::uint8_t* rgb);
 };

@@ -66,7 +66,8 @@ SetUpWork::SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& 
       lighting_(parameters, std::move(surfaces), rules),
       colourer_(parameters, lighting_),
       load_costs_(set_up::span_load_costs(linear_)),
-      object_to_clip_(scene.objects.size()) {
+      object_to_clip_(scene.objects.size()),
+      kernels_(set_up::triangle_kernels(vector_variant())) {
   count_paths();
 }
 
@@ -122,6 +123,23 @@ set_up::Pieces<double> SetUpWork::pieces_of(std::size_t object, std::size_t tria
   return set_up::pieces(corners, grid_, format_.viewport);
 }
 
+void SetUpWork::transform_block() {
+  const geometry::Mesh& mesh = *scene_.objects[object_].mesh;
+  const std::size_t count = std::min(set_up::kLanes, mesh.triangles.size() - triangle_);
+  for (std::size_t lane = 0; lane < count; ++lane)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t corner = mesh.triangles[triangle_ + lane][i];
+      for (int c = 0; c < 3; ++c) {
+        block_.position[i][static_cast<std::size_t>(c)][lane] = mesh.positions[corner][c];
+        block_.normal[i][static_cast<std::size_t>(c)][lane] = mesh.normals[corner][c];
+      }
+    }
+  set_up::TransformRequest request =
+      set_up::transform_request(object_to_clip_[object_], pose_.normal_to_eye[object_], grid_.grid, format_.viewport);
+  request.lanes = (1U << count) - 1;
+  inside_ = kernels_.transform(request, block_, screen_);
+}
+
 void SetUpWork::count_pieces() const {
   const geometry::Mesh& mesh = *scene_.objects[object_].mesh;
   geometry::ClipTriangle<Number> corners;
@@ -140,35 +158,49 @@ bool SetUpWork::next() {
   }
   if (object_ >= scene_.objects.size()) return false;
   coloured_.clear();
-  loads_.clear();
+  load_count_ = 0;
   const OperationCounts colouring = colourer_.operations();
   triangle_operations_ = waiting_operations_;
   waiting_operations_ = {};
   ++number_;
   ++counts_.triangles;
-  bool cut = false;
-  const set_up::Pieces<double> pieces = pieces_of(object_, triangle_, cut);
-  // What nothing is cut from costs what all such triangles do; others are computed once more, counting.
-  triangle_operations_ += cut ? counted([&] { count_pieces(); }) : inside_cost_;
-  if (pieces.size == 0) ++counts_.outside;
-  if (pieces.size > 1) counts_.pieces += pieces.size - 1;
-  for (const auto& piece : pieces.list()) colour(piece, object_, triangle_);
+  const std::size_t lane = triangle_ % set_up::kLanes;
+  if (lane == 0) transform_block();
+  if ((inside_ >> lane & 1U) != 0) {
+    triangle_operations_ += inside_cost_;
+    colour(set_up::triangle_of_lane<double>(screen_, lane), object_, triangle_);
+  } else {
+    bool cut = false;
+    const set_up::Pieces<double> pieces = pieces_of(object_, triangle_, cut);
+    // What nothing is cut from costs what all such triangles do; others are computed once more, counting.
+    triangle_operations_ += cut ? counted([&] { count_pieces(); }) : inside_cost_;
+    if (pieces.size == 0) ++counts_.outside;
+    if (pieces.size > 1) counts_.pieces += pieces.size - 1;
+    for (const auto& piece : pieces.list()) colour(piece, object_, triangle_);
+  }
   triangle_operations_ += colourer_.operations() - colouring;
   if (parameters_.method == ShadingMethod::quadratic_adaptive)
     frame_.insert(frame_.end(), coloured_.begin(), coloured_.end());
   for (const set_up::ColourTriangle& triangle : coloured_) {
-    const span_unit::TriangleLoad load = set_up::span_load(triangle, format_.span);
+    // The room is used again from triangle to triangle: a load is large.
+    if (load_count_ == room_.size()) room_.emplace_back();
+    span_unit::TriangleLoad& load = room_[load_count_];
+    set_up::put_span_load(triangle, format_.span, load);
     triangle_operations_ += set_up::cost_of(load, load_costs_);
-    if (load.count == 0) continue;
     counts_.words += words_of(load);
-    loads_.push_back(load);
+    if (load.count > 0) ++load_count_;
   }
-  counts_.loads += loads_.size();
+  counts_.loads += load_count_;
   counts_.operations += triangle_operations_;
-  counts_.colour = since(colourer_.counts(), colour_start_);
-  counts_.lighting = since(lighting_.counts(), lighting_start_);
   ++triangle_;
   return true;
+}
+
+SetUpCounts SetUpWork::counts() const {
+  SetUpCounts counts = counts_;
+  counts.colour = since(colourer_.counts(), colour_start_);
+  counts.lighting = since(lighting_.counts(), lighting_start_);
+  return counts;
 }
 
 glm::dvec3 SetUpWork::eye_position(const geometry::ScreenVertex<double>& corner) const {
@@ -179,7 +211,7 @@ glm::dvec3 SetUpWork::eye_position(const geometry::ScreenVertex<double>& corner)
 }
 
 void SetUpWork::colour(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle) {
-  set_up::ColourRequest request;
+  set_up::ColourRequest& request = request_;
   request.object = number_;
   request.material = scene_.objects[object].mesh->material[triangle];
   request.two_sided = scene_.objects[object].two_sided;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <span>
 #include <vector>
 
 #include "modules/host/path_counts.h"
@@ -13,6 +14,7 @@
 #include "modules/set_up/pieces.h"
 #include "modules/set_up/point_lighting.h"
 #include "modules/set_up/span_load.h"
+#include "modules/set_up/triangle_batch.h"
 #include "modules/set_up/triangle_colourer.h"
 #include "src/geometry/frame_grid.h"
 #include "src/geometry/lighting.h"
@@ -49,18 +51,19 @@ class SetUpWork {
 
   // Of the triangle: what is drawn of it, none where it is not seen.
   const std::vector<set_up::ColourTriangle>& coloured() const { return coloured_; }
-  const std::vector<span_unit::TriangleLoad>& loads() const { return loads_; }
+  std::span<const span_unit::TriangleLoad> loads() const { return {room_.data(), load_count_}; }
   const geometry::OperationCounts& operations() const { return triangle_operations_; }
   std::uint64_t words_of(const span_unit::TriangleLoad& load) const { return set_up::load_words(load, linear_); }
 
   // Of the frame so far.
-  const SetUpCounts& counts() const { return counts_; }
+  SetUpCounts counts() const;
   // Of a frame that has been computed, where the method splits triangles.
   set_up::ColourSteps colour_steps() const { return set_up::colour_steps(frame_); }
   const geometry::FrameGrid& grid() const { return grid_; }
 
  private:
   using Number = geometry::Counted<double>;
+  void transform_block();
   set_up::Pieces<double> pieces_of(std::size_t object, std::size_t triangle, bool& cut) const;
   void count_pieces() const;
   void colour(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle);
@@ -91,9 +94,17 @@ class SetUpWork {
   geometry::OperationCounts triangle_operations_;
   set_up::ColourCounts colour_start_;
   set_up::LightingCounts lighting_start_;
+  // Eight triangles of an object at a time: those that lie on the screen are not clipped one by one.
+  const set_up::TriangleKernels& kernels_;
+  set_up::ObjectCorners block_;
+  set_up::ScreenCorners screen_;
+  unsigned inside_ = 0;  // of the block, a bit a triangle
+
   std::vector<set_up::ColourTriangle> coloured_;
   std::vector<set_up::ColourTriangle> frame_;  // all of the frame's, where some may have been split
-  std::vector<span_unit::TriangleLoad> loads_;
+  std::vector<span_unit::TriangleLoad> room_;
+  std::size_t load_count_ = 0;     // of them are the triangle's
+  set_up::ColourRequest request_;  // of the last triangle
   SetUpCounts counts_;
 };
 

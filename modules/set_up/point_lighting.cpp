@@ -1,6 +1,7 @@
 #include "modules/set_up/point_lighting.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -48,11 +49,12 @@ LightingCounts& LightingCounts::operator+=(const LightingCounts& other) {
 }
 
 PointLighting::PointLighting(const SetUpParameters& parameters, std::vector<geometry::Reflectance> surfaces,
-                             const geometry::LightingRules& rules)
+                             const geometry::LightingRules& rules, VectorVariant variant)
     : attributes_(parameters.attributes),
       clamp_(parameters.clamp_knots),
       surfaces_(std::move(surfaces)),
-      rules_(rules) {}
+      rules_(rules),
+      kernels_(light_kernels(variant)) {}
 
 void PointLighting::set_lights(std::vector<geometry::LightSource> lights, bool viewer_at_eye) {
   const bool at_eye = viewer_at_eye && perspective();
@@ -64,6 +66,7 @@ void PointLighting::set_lights(std::vector<geometry::LightSource> lights, bool v
   needs_positions_ =
       viewer_at_eye_ || std::any_of(lights_.begin(), lights_.end(), [](const auto& l) { return l.at_point; });
   if (!same_kinds || way_costs_.empty()) find_costs();
+  prepare_kernel();
 }
 
 LitPoint PointLighting::middle(const LitPoint& a, const LitPoint& b) {
@@ -119,6 +122,77 @@ PointLighting::Levels PointLighting::levels(const LitPoint& point, std::size_t m
     levels[c] = clamped;
   }
   return levels;
+}
+
+void PointLighting::prepare_kernel() {
+  all_far_ = !needs_positions_;
+  if (!all_far_) return;
+  lit_.resize(lights_.size());
+  shines_.resize(lights_.size());
+  requests_.assign(surfaces_.size(), {});
+  lights_on_surface_.assign(surfaces_.size() * lights_.size(), {});
+  for (std::size_t m = 0; m < surfaces_.size(); ++m) {
+    const geometry::Reflectance& surface = surfaces_[m];
+    LightOnSurface* const lights = lights_on_surface_.data() + m * lights_.size();
+    LightRequest& request = requests_[m];
+    request.lights = lights;
+    request.count = lights_.size();
+    request.exponent = surface.exponent;
+    request.phong = rules_.model == geometry::Model::phong;
+    request.gate = rules_.specular_gate;
+    request.clamp = clamp_;
+    for (int c = 0; c < 3; ++c) request.ambient[c] = surface.ambient[c] * rules_.ambient_light[c];
+    for (std::size_t l = 0; l < lights_.size(); ++l) {
+      const glm::dvec3& towards = lights_[l].vector;
+      const glm::dvec3 half = geometry::normalised<double>(towards + glm::dvec3(0, 0, 1));
+      for (int c = 0; c < 3; ++c) {
+        lights[l].towards[c] = towards[c];
+        lights[l].half[c] = half[c];
+        lights[l].diffuse[c] = surface.diffuse[c] * lights_[l].diffuse_intensity[c];
+        lights[l].specular[c] = surface.specular[c] * lights_[l].specular_intensity[c];
+      }
+    }
+  }
+}
+
+void PointLighting::levels(std::span<const LitPoint> points, std::size_t material, std::span<Levels> levels) {
+  if (!all_far_) {
+    for (std::size_t i = 0; i < points.size(); ++i) levels[i] = this->levels(points[i], material);
+    return;
+  }
+  for (int c = 0; c < 3; ++c)
+    for (std::size_t i = 0; i < kLightLanes; ++i)
+      points_.normal[c][i] = points[std::min(i, points.size() - 1)].normal[c];
+  kernels_.light(requests_[material], points_, lit_.data(), shines_.data());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    levels[i] = {points_.levels[0][i], points_.levels[1][i], points_.levels[2][i]};
+  count(points.size(), material);
+}
+
+// What the kernel has done for the first `points`.
+void PointLighting::count(std::size_t points, std::size_t material) {
+  const std::uint32_t these = (std::uint32_t{1} << points) - 1;
+  // A count of ones is a call where nothing is known of the processor: most are none.
+  const auto number = [these](std::uint32_t bits) {
+    return (bits & these) == 0 ? 0 : static_cast<std::uint64_t>(std::popcount(bits & these));
+  };
+  counts_.evaluations += points;
+  for (std::size_t c = 0; c < 3; ++c) {
+    counts_.clamped_knots += number(points_.clamped[c]);
+    counts_.not_finite += number(points_.not_finite[c]);
+  }
+  operations_ += point_cost_ * points;
+  for (std::size_t l = 0; l < lights_.size(); ++l) {
+    const auto& costs = way_costs_[material][l].of_light;
+    const std::uint32_t a = lit_[l];
+    const std::uint32_t b = shines_[l];
+    const std::uint32_t ways[] = {~a & ~b, ~a & b, a & ~b, a & b};  // in the order of Way
+    for (std::size_t way = 0; way < 4; ++way)
+      if ((ways[way] & these) == these)
+        operations_ += costs[way] * points;
+      else if ((ways[way] & these) != 0)
+        operations_ += costs[way] * number(ways[way]);
+  }
 }
 
 // Of every way through the equation: the lights and viewers tried lead each way by one model or the other.

@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
+#include "modules/set_up/light_kernels.h"
 #include "modules/set_up/parameters.h"
 #include "src/geometry/counted.h"
 #include "src/geometry/lighting.h"
@@ -35,7 +37,7 @@ class PointLighting {
   using Levels = glm::dvec3;  // 0..255 where knots are clamped
 
   PointLighting(const SetUpParameters& parameters, std::vector<geometry::Reflectance> surfaces,
-                const geometry::LightingRules& rules);
+                const geometry::LightingRules& rules, VectorVariant variant = vector_variant());
   // Of a frame, in eye space. `viewer_at_eye`: not infinitely far.
   void set_lights(std::vector<geometry::LightSource> lights, bool viewer_at_eye);
   bool needs_positions() const { return needs_positions_; }
@@ -44,6 +46,8 @@ class PointLighting {
   // `weights` of the corners, on the screen; they add up to 1.
   LitPoint inside(const std::array<const LitPoint*, 3>& corners, const std::array<double, 3>& weights);
   Levels levels(const LitPoint& point, std::size_t material);
+  // The same of at most kLightLanes points of a surface.
+  void levels(std::span<const LitPoint> points, std::size_t material, std::span<Levels> levels);
 
   const LightingCounts& counts() const { return counts_; }
   // Operations since the start of the run.
@@ -55,6 +59,8 @@ class PointLighting {
     std::array<geometry::OperationCounts, 4> of_light;
   };
   void find_costs();
+  void prepare_kernel();
+  void count(std::size_t points, std::size_t material);
   bool perspective() const { return attributes_ == Attributes::perspective; }
 
   Attributes attributes_;
@@ -70,6 +76,14 @@ class PointLighting {
   geometry::OperationCounts middle_cost_;
   geometry::OperationCounts inside_cost_;
   std::vector<std::vector<WayCosts>> way_costs_;  // by material and light
+
+  // Points of a surface at once, where no light and no viewer is near.
+  const LightKernels& kernels_;
+  bool all_far_ = false;
+  std::vector<LightRequest> requests_;             // by material
+  std::vector<LightOnSurface> lights_on_surface_;  // by material and light
+  LitPoints points_;
+  std::vector<std::uint8_t> lit_, shines_;  // by light
 };
 
 }  // namespace rastertlm::set_up

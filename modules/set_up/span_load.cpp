@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/set_up/register_kernels.h"
 #include "src/base/fixed_point.h"
 
 namespace rastertlm::set_up {
@@ -13,6 +14,7 @@ using span_unit::ColourWords;
 using span_unit::EdgeWords;
 using span_unit::HalfTriangle;
 using span_unit::StartEdge;
+using span_unit::StartEdgeRegisters;
 
 using Number = geometry::Counted<double>;
 
@@ -67,7 +69,7 @@ struct Start {
 template <class T>
 Start<T> start_of(const Edge& edge, const EdgeWords& words, std::int64_t line, const ColourTriangle& triangle,
                   const SpanFormat& format) {
-  const T unit = T(std::ldexp(1.0, -triangle.fraction_bits));
+  const T unit = T(1.0 / static_cast<double>(std::int64_t{1} << triangle.fraction_bits));
   const SnappedPoint& origin = triangle.corners[0];
   const std::int64_t one = std::int64_t{1} << triangle.fraction_bits;
   Start<T> start;
@@ -134,7 +136,7 @@ Slopes<T> depth_slopes(const ColourTriangle& triangle) {
   const std::int64_t e1x = b.x - a.x, e1y = b.y - a.y, e2x = c.x - a.x, e2y = c.y - a.y;
   geometry::charge_integer<T>(5, 2);
   const T area = geometry::from_integer<T>(e1x * e2y - e2x * e1y);
-  const T scale = T(std::ldexp(1.0, triangle.fraction_bits)) / area;
+  const T scale = T(static_cast<double>(std::int64_t{1} << triangle.fraction_bits)) / area;
   const T d1 = T(triangle.depth[1]) - T(triangle.depth[0]);
   const T d2 = T(triangle.depth[2]) - T(triangle.depth[0]);
   return {(d1 * geometry::from_integer<T>(e2y) - d2 * geometry::from_integer<T>(e1y)) * scale,
@@ -142,18 +144,46 @@ Slopes<T> depth_slopes(const ColourTriangle& triangle) {
 }
 
 template <class T>
-void load_registers(const Edge& edge, std::int64_t line, const ColourTriangle& triangle, const Slopes<T>& depth,
-                    const SpanFormat& format, bool linear, HalfTriangle& half) {
-  half.start = edge.words(line, triangle.fraction_bits);
+void load_edge(const Edge& edge, std::int64_t line, int fraction_bits, HalfTriangle& half) {
+  half.start = edge.words(line, fraction_bits);
   geometry::charge_integer<T>(8, 4);
-  const Start<T> at = start_of<T>(edge, half.start, line, triangle, format);
+}
+
+// One set after the other.
+template <class T>
+void load_registers(const Start<T>& at, const ColourTriangle& triangle, const Slopes<T>& depth,
+                    const SpanFormat& format, bool linear, StartEdgeRegisters& registers) {
   for (std::size_t c = 0; c < span_unit::kChannels; ++c)
-    half.colour[c] = linear ? linear_words<T>(triangle.colour[c], at, format.fraction_bits)
-                            : colour_words<T>(triangle.colour[c], at, format.fraction_bits);
+    put_words(linear ? linear_words<T>(triangle.colour[c], at, format.fraction_bits)
+                     : colour_words<T>(triangle.colour[c], at, format.fraction_bits),
+              c, registers);
   const auto word = [&](const T& value) { return to_word(geometry::plain(value), format.depth_fraction_bits); };
-  half.depth = {word(depth.x * at.x + depth.y * at.y + T(triangle.depth[0])), word(depth.x * at.slope + depth.y),
-                word(depth.x)};
+  put_words({word(depth.x * at.x + depth.y * at.y + T(triangle.depth[0])), word(depth.x * at.slope + depth.y),
+             word(depth.x), 0, 0, 0},
+            span_unit::kDepthSet, registers);
   if constexpr (!std::is_arithmetic_v<T>) geometry::operation_counts.convert += 3;
+}
+
+// All sets at once: the same words.
+void put_forms(const ColourTriangle& triangle, const Slopes<double>& depth, const SpanFormat& format,
+               RegisterForms& forms) {
+  for (std::size_t c = 0; c < span_unit::kChannels; ++c) {
+    const QuadraticForm<double>& form = triangle.colour[c];
+    forms.t0[c] = form.t0;
+    forms.t1[c] = form.t1;
+    forms.t2[c] = form.t2;
+    forms.t3[c] = form.t3;
+    forms.t4[c] = form.t4;
+    forms.t5[c] = form.t5;
+    forms.added[c] = 0.5;
+    forms.scale[c] = static_cast<double>(std::uint64_t{1} << format.fraction_bits);
+  }
+  forms.t0[span_unit::kDepthSet] = triangle.depth[0];
+  forms.t1[span_unit::kDepthSet] = depth.y;
+  forms.t2[span_unit::kDepthSet] = depth.x;
+  forms.t3[span_unit::kDepthSet] = forms.t4[span_unit::kDepthSet] = forms.t5[span_unit::kDepthSet] = 0.0;
+  forms.added[span_unit::kDepthSet] = 0.0;
+  forms.scale[span_unit::kDepthSet] = static_cast<double>(std::uint64_t{1} << format.depth_fraction_bits);
 }
 
 // Corners from the top down; where two are level, in any order.
@@ -168,6 +198,12 @@ std::array<SnappedPoint, 3> from_top(std::array<SnappedPoint, 3> corners) {
 
 span_unit::TriangleLoad span_load(const ColourTriangle& triangle, const SpanFormat& format) {
   span_unit::TriangleLoad load;
+  put_span_load(triangle, format, load);
+  return load;
+}
+
+void put_span_load(const ColourTriangle& triangle, const SpanFormat& format, span_unit::TriangleLoad& load) {
+  load.count = 0;
   load.object = triangle.object;
   load.material = triangle.material;
   const auto [top, middle, bottom] = from_top(triangle.corners);
@@ -176,12 +212,21 @@ span_unit::TriangleLoad span_load(const ColourTriangle& triangle, const SpanForm
   const std::int64_t first = on_screen(first_sample(top.y, q));
   const std::int64_t second = on_screen(first_sample(middle.y, q));
   const std::int64_t end = on_screen(first_sample(bottom.y, q));
-  if (first >= end) return load;
+  if (first >= end) return;
   const Edge whole{top, bottom};
   // Twice the area, and where the middle corner lies of the long edge.
   const bool middle_left = (bottom.x - top.x) * (middle.y - top.y) - (middle.x - top.x) * (bottom.y - top.y) > 0;
   const bool linear = is_linear(triangle);
   const Slopes<double> depth = depth_slopes<double>(triangle);
+  RegisterForms forms;
+  if (!linear) put_forms(triangle, depth, format, forms);
+  const RegisterKernels& kernels = register_kernels(format.variant);
+  const auto load_start = [&](const Edge& edge, HalfTriangle& half) {
+    load_edge<double>(edge, half.first_line, q, half);
+    const Start<double> at = start_of<double>(edge, half.start, half.first_line, triangle, format);
+    if (linear || !kernels.start(forms, at.x, at.y, at.slope, half.registers))
+      load_registers<double>(at, triangle, depth, format, linear, half.registers);
+  };
   load.second_goes_on = !middle_left;
   for (int lower = 0; lower < 2; ++lower) {
     HalfTriangle& half = load.halves[load.count];
@@ -190,12 +235,10 @@ span_unit::TriangleLoad span_load(const ColourTriangle& triangle, const SpanForm
     if (half.lines <= 0) continue;
     const Edge edge = lower == 0 ? Edge{top, middle} : Edge{middle, bottom};
     const bool is_second = load.count == 1;
-    if (middle_left || !is_second)
-      load_registers<double>(middle_left ? edge : whole, half.first_line, triangle, depth, format, linear, half);
+    if (middle_left || !is_second) load_start(middle_left ? edge : whole, half);
     if (!middle_left || !is_second) half.end = (middle_left ? whole : edge).words(half.first_line, q);
     ++load.count;
   }
-  return load;
 }
 
 std::uint64_t load_words(const span_unit::TriangleLoad& load, bool linear) {
@@ -223,7 +266,9 @@ SpanLoadCosts span_load_costs(bool linear) {
   costs.triangle = geometry::operation_counts - before;
   before = geometry::operation_counts;
   HalfTriangle half;
-  load_registers<Number>(edge, 0, triangle, depth, format, linear, half);
+  load_edge<Number>(edge, 0, triangle.fraction_bits, half);
+  load_registers<Number>(start_of<Number>(edge, half.start, 0, triangle, format), triangle, depth, format, linear,
+                         half.registers);
   geometry::charge_integer<Number>(8, 4);  // the end edge
   costs.start = geometry::operation_counts - before;
   before = geometry::operation_counts;

@@ -8,6 +8,7 @@
 #include "modules/set_up/quadratic_form.h"
 #include "modules/span_unit/parameters.h"
 #include "modules/span_unit/span_words.h"
+#include "src/base/vector_variant.h"
 #include "src/geometry/counted.h"
 #include "src/geometry/snapping.h"
 
@@ -29,16 +30,23 @@ struct SpanFormat {
   unsigned depth_fraction_bits = 8;
   span_unit::StartEdge start_edge = span_unit::StartEdge::lattice;
   std::int64_t lines = 512;  // of the screen
+  VectorVariant variant = vector_variant();
 
   static SpanFormat of(const span_unit::SpanUnitParameters& parameters, std::int64_t lines) {
-    return {static_cast<unsigned>(parameters.word_bits), static_cast<unsigned>(parameters.fraction_bits),
-            static_cast<unsigned>(parameters.depth_fraction_bits), parameters.start_edge, lines};
+    return {static_cast<unsigned>(parameters.word_bits),
+            static_cast<unsigned>(parameters.fraction_bits),
+            static_cast<unsigned>(parameters.depth_fraction_bits),
+            parameters.start_edge,
+            lines,
+            vector_variant()};
   }
 };
 
 // Lines above and below the screen are left out: the host begins at the first line that is seen. A sample on a left or
 // a top edge is inside, on others it is not, exactly. No halves where no line of the screen is touched.
 span_unit::TriangleLoad span_load(const ColourTriangle& triangle, const SpanFormat& format);
+// The same into a load that held another triangle's.
+void put_span_load(const ColourTriangle& triangle, const SpanFormat& format, span_unit::TriangleLoad& load);
 
 // Words that the host writes for it. `linear`: the machine's second differences are wired to zero (Gouraud).
 std::uint64_t load_words(const span_unit::TriangleLoad& load, bool linear);

@@ -21,7 +21,6 @@ std::optional<FitRequest> fit_request(const geometry::SnapGrid& grid, const Word
 TransformRequest transform_request(const glm::dmat4& object_to_clip, const glm::dmat3& normal_to_eye,
                                    const geometry::SnapGrid& on_screen, const geometry::Viewport& viewport);
 
-// 1 / w, which the words do not need, is not kept.
 template <class T>
 ScreenTriangle<T> triangle_of_lane(const ScreenCorners& corners, std::size_t lane) {
   ScreenTriangle<T> triangle;
@@ -29,7 +28,7 @@ ScreenTriangle<T> triangle_of_lane(const ScreenCorners& corners, std::size_t lan
     triangle[i] = {corners.x[i][lane],
                    corners.y[i][lane],
                    corners.z[i][lane],
-                   1.0,
+                   corners.inverse_w[i][lane],
                    {corners.normal[i][0][lane], corners.normal[i][1][lane], corners.normal[i][2][lane]}};
   return triangle;
 }

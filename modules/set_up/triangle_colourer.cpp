@@ -118,23 +118,36 @@ void TriangleColourer::colour(const ColourRequest& request, std::vector<ColourTr
     ++counts_.back_faces;
     return;
   }
-  Knots knots;
-  for (std::size_t i = 0; i < 3; ++i) {
-    LitPoint point = request.corners[i];
-    if (turned) point.normal = -point.normal;
-    knots.knot[i] = knot_of(point, request.material);
-  }
-  ColourTriangle triangle;
+  ColourTriangle& triangle = out.emplace_back();
   triangle.fraction_bits = parameters_.corner_bits();
   triangle.object = request.object;
   triangle.material = request.material;
   triangle.depth = request.depth;
-  if (parameters_.method != ShadingMethod::gouraud) {
-    knots.knot[kMiddle12] = between(knots.knot[0], knots.knot[1], request.material);
-    knots.knot[kMiddle13] = between(knots.knot[0], knots.knot[2], request.material);
-    knots.knot[kMiddle23] = between(knots.knot[1], knots.knot[2], request.material);
+  light_knots(request, turned, knots_);
+  split_or_draw(knots_, 0, out);
+}
+
+void TriangleColourer::light_knots(const ColourRequest& request, bool turned, Knots& knots) {
+  auto& points = knots.point;
+  std::copy(request.corners.begin(), request.corners.end(), points.begin());
+  if (turned)
+    for (std::size_t i = 0; i < 3; ++i) points[i].normal = -points[i].normal;
+  const bool linear = parameters_.method == ShadingMethod::gouraud;
+  if (!linear) {
+    points[kMiddle12] = lighting_.middle(points[0], points[1]);
+    points[kMiddle13] = lighting_.middle(points[0], points[2]);
+    points[kMiddle23] = lighting_.middle(points[1], points[2]);
   }
-  split_or_draw(knots, 0, request, triangle, out);
+  lighting_.levels({points.data(), linear ? 3 : kKnots}, request.material, knots.levels);
+}
+
+TriangleColourer::Knots TriangleColourer::together(const std::array<Knot, kKnots>& knots) {
+  Knots all;
+  for (std::size_t i = 0; i < kKnots; ++i) {
+    all.point[i] = knots[i].point;
+    all.levels[i] = knots[i].levels;
+  }
+  return all;
 }
 
 SnappedPoint TriangleColourer::child_corner(const SnappedPoint& exact) const {
@@ -144,13 +157,13 @@ SnappedPoint TriangleColourer::child_corner(const SnappedPoint& exact) const {
   return {moved(exact.x), moved(exact.y)};
 }
 
-// The triangle's own coefficients; where they are too far off, those of its four children instead, which share the
-// knots on their common edges.
-void TriangleColourer::split_or_draw(const Knots& knots, int level, const ColourRequest& request,
-                                     ColourTriangle triangle, std::vector<ColourTriangle>& out) {
-  for (std::size_t i = 0; i < 3; ++i) triangle.corners[i] = knots.knot[i].point.at;
+// The triangle's own coefficients; where they are too far off, those of its four children instead.
+void TriangleColourer::split_or_draw(const Knots& knots, int level, std::vector<ColourTriangle>& out) {
+  ColourTriangle& triangle = out.back();
+  for (std::size_t i = 0; i < 3; ++i) triangle.corners[i] = knots.point[i].at;
   if (doubled_area(triangle.corners) == 0) {
     ++counts_.degenerate;
+    out.pop_back();
     return;
   }
   if (is_low(triangle)) {
@@ -160,35 +173,36 @@ void TriangleColourer::split_or_draw(const Knots& knots, int level, const Colour
     solve_linear(knots, triangle);
   } else {
     solve_quadratic(knots, triangle);
-    if (parameters_.method == ShadingMethod::quadratic_adaptive && is_off(knots, triangle, request.material)) {
-      if (level < parameters_.test_depth_limit) {
-        ++counts_.splits;
-        const auto middle_depth = [&](std::size_t a, std::size_t b) {
-          return (triangle.depth[a] + triangle.depth[b]) * 0.5;
-        };
-        Knots with = knots;
-        for (const std::size_t k : {kMiddle12, kMiddle13, kMiddle23})
-          with.knot[k].point.at = child_corner(with.knot[k].point.at);
-        const auto& [k1, k2, k3, k12, k13, k23] = with.knot;
-        const std::uint32_t m = request.material;
-        const Knot inner_1 = between(k12, k13, m), inner_2 = between(k12, k23, m), inner_3 = between(k13, k23, m);
-        const double d12 = middle_depth(0, 1), d13 = middle_depth(0, 2), d23 = middle_depth(1, 2);
-        const auto child = [&](const Knots& of_child, const std::array<double, 3>& depth) {
-          ColourTriangle next = triangle;
-          next.depth = depth;
-          split_or_draw(of_child, level + 1, request, next, out);
-        };
-        child({{k1, k12, k13, between(k1, k12, m), between(k1, k13, m), inner_1}}, {triangle.depth[0], d12, d13});
-        child({{k12, k2, k23, between(k12, k2, m), inner_2, between(k2, k23, m)}}, {d12, triangle.depth[1], d23});
-        child({{k13, k23, k3, inner_3, between(k13, k3, m), between(k23, k3, m)}}, {d13, d23, triangle.depth[2]});
-        child({{k12, k23, k13, inner_2, inner_1, inner_3}}, {d12, d23, d13});
-        return;
-      }
+    if (parameters_.method == ShadingMethod::quadratic_adaptive && is_off(knots, triangle, triangle.material)) {
+      if (level < parameters_.test_depth_limit) return split(knots, level, out);
       ++counts_.at_limit;
     }
   }
   ++counts_.drawn;
-  out.push_back(triangle);
+}
+
+// Children share the knots on their common edges.
+void TriangleColourer::split(const Knots& knots, int level, std::vector<ColourTriangle>& out) {
+  ++counts_.splits;
+  const ColourTriangle parent = out.back();
+  out.pop_back();
+  Knots with = knots;
+  for (const std::size_t k : {kMiddle12, kMiddle13, kMiddle23}) with.point[k].at = child_corner(with.point[k].at);
+  const std::uint32_t m = parent.material;
+  const Knot k1 = with.knot(0), k2 = with.knot(1), k3 = with.knot(2);
+  const Knot k12 = with.knot(kMiddle12), k13 = with.knot(kMiddle13), k23 = with.knot(kMiddle23);
+  const Knot inner_1 = between(k12, k13, m), inner_2 = between(k12, k23, m), inner_3 = between(k13, k23, m);
+  const auto& [d1, d2, d3] = parent.depth;
+  const double d12 = (d1 + d2) * 0.5, d13 = (d1 + d3) * 0.5, d23 = (d2 + d3) * 0.5;
+  const auto child = [&](const std::array<Knot, kKnots>& of_child, const std::array<double, 3>& depth) {
+    out.push_back(parent);
+    out.back().depth = depth;
+    split_or_draw(together(of_child), level + 1, out);
+  };
+  child({k1, k12, k13, between(k1, k12, m), between(k1, k13, m), inner_1}, {d1, d12, d13});
+  child({k12, k2, k23, between(k12, k2, m), inner_2, between(k2, k23, m)}, {d12, d2, d23});
+  child({k13, k23, k3, inner_3, between(k13, k3, m), between(k23, k3, m)}, {d13, d23, d3});
+  child({k12, k23, k13, inner_2, inner_1, inner_3}, {d12, d23, d13});
 }
 
 bool TriangleColourer::is_off(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material) {
@@ -204,9 +218,9 @@ bool TriangleColourer::is_off_at(const Knots& knots, const ColourTriangle& trian
                                  const std::array<double, 3>& weights) {
   ++counts_.tests;
   operations_ += test_cost_;
-  const LitPoint point = lighting_.inside({&knots.knot[0].point, &knots.knot[1].point, &knots.knot[2].point}, weights);
+  const LitPoint point = lighting_.inside({&knots.point[0], &knots.point[1], &knots.point[2]}, weights);
   const Levels levels = lighting_.levels(point, material);
-  const double unit = std::ldexp(1.0, -triangle.fraction_bits);
+  const double unit = 1.0 / static_cast<double>(std::int64_t{1} << triangle.fraction_bits);
   double x = 0.0;
   double y = 0.0;
   for (std::size_t i = 1; i < 3; ++i) {
@@ -226,7 +240,7 @@ bool TriangleColourer::is_low(const ColourTriangle& triangle) const {
 }
 
 void TriangleColourer::draw_flat(const Knots& knots, ColourTriangle& triangle) const {
-  const Levels mean = (knots.knot[0].levels + knots.knot[1].levels + knots.knot[2].levels) * (1.0 / 3.0);
+  const Levels mean = (knots.levels[0] + knots.levels[1] + knots.levels[2]) * (1.0 / 3.0);
   for (int c = 0; c < 3; ++c) {
     QuadraticForm<double> form;
     form.t0 = mean[c];
@@ -237,7 +251,7 @@ void TriangleColourer::draw_flat(const Knots& knots, ColourTriangle& triangle) c
 namespace {
 
 Offsets<double> offsets_of(const ColourTriangle& triangle) {
-  const double unit = std::ldexp(1.0, -triangle.fraction_bits);
+  const double unit = 1.0 / static_cast<double>(std::int64_t{1} << triangle.fraction_bits);
   const auto& [a, b, c] = triangle.corners;
   const auto pixels = [unit](std::int64_t steps) { return static_cast<double>(steps) * unit; };
   return {pixels(b.x - a.x), pixels(b.y - a.y), pixels(c.x - a.x), pixels(c.y - a.y)};
@@ -251,14 +265,14 @@ void TriangleColourer::solve_linear(const Knots& knots, ColourTriangle& triangle
   const BarycentricSolver<double> shared(at.x2, at.y2, at.x3, at.y3);
   for (int c = 0; c < 3; ++c)
     triangle.colour[static_cast<std::size_t>(c)] =
-        shared.solve_linear(knots.knot[0].levels[c], knots.knot[1].levels[c], knots.knot[2].levels[c]);
+        shared.solve_linear(knots.levels[0][c], knots.levels[1][c], knots.levels[2][c]);
 }
 
 void TriangleColourer::solve_quadratic(const Knots& knots, ColourTriangle& triangle) {
   operations_ += solve_cost_;
   std::array<SixColours<double>, 3> colours;
   for (int c = 0; c < 3; ++c) {
-    const auto level = [&](std::size_t i) { return knots.knot[i].levels[c]; };
+    const auto level = [&](std::size_t i) { return knots.levels[i][c]; };
     colours[static_cast<std::size_t>(c)] = {level(0),         level(1),         level(2),
                                             level(kMiddle12), level(kMiddle13), level(kMiddle23)};
   }

@@ -52,14 +52,20 @@ class TriangleColourer {
     Levels levels{0.0};
   };
   // Corners 1, 2, 3, then the middles of 1-2, 1-3, 2-3.
+  static constexpr std::size_t kKnots = 6;
   struct Knots {
-    std::array<Knot, 6> knot;
+    std::array<LitPoint, kKnots> point;
+    std::array<Levels, kKnots> levels;
+    Knot knot(std::size_t i) const { return {point[i], levels[i]}; }
   };
+  static Knots together(const std::array<Knot, kKnots>& knots);
 
+  void light_knots(const ColourRequest& request, bool turned, Knots& knots);
   Knot knot_of(const LitPoint& point, std::uint32_t material);
   Knot between(const Knot& a, const Knot& b, std::uint32_t material);
-  void split_or_draw(const Knots& knots, int level, const ColourRequest& request, ColourTriangle triangle,
-                     std::vector<ColourTriangle>& out);
+  // `out` ends with the triangle, of which corners and colour are missing.
+  void split_or_draw(const Knots& knots, int level, std::vector<ColourTriangle>& out);
+  void split(const Knots& knots, int level, std::vector<ColourTriangle>& out);
   bool is_off(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material);
   bool is_off_at(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material,
                  const std::array<double, 3>& weights);
@@ -76,6 +82,7 @@ class TriangleColourer {
   geometry::OperationCounts solve_cost_;  // three channels
   geometry::OperationCounts facing_cost_;
   geometry::OperationCounts test_cost_;  // one point, without its light
+  Knots knots_;                          // of the last triangle that was given
 };
 
 }  // namespace rastertlm::set_up

@@ -25,6 +25,7 @@ struct alignas(64) ScreenCorners {
   double x[3][kLanes];
   double y[3][kLanes];
   double z[3][kLanes];
+  double inverse_w[3][kLanes];
   double normal[3][3][kLanes];
 };
 

@@ -2,48 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "src/base/fixed_point.h"
 
 namespace rastertlm::span_unit {
 namespace {
 
-// A word of each set of registers. They wrap at 64 bits here: the low bits are those of narrower ones.
-using Words = std::uint64_t __attribute__((vector_size(kRegisterSets * sizeof(std::uint64_t))));
-
-// The running registers at the start edge.
-struct StartEdgeRegisters {
-  Words start, line_step, pixel_step, line_line, line_pixel, pixel_pixel;
-
-  explicit StartEdgeRegisters(const HalfTriangle& half) {
-    const auto& [red, green, blue] = half.colour;
-    const DepthWords& depth = half.depth;
-    start = Words{red.start, green.start, blue.start, depth.start};
-    line_step = Words{red.line_step, green.line_step, blue.line_step, depth.line_step};
-    pixel_step = Words{red.pixel_step, green.pixel_step, blue.pixel_step, depth.pixel_step};
-    line_line = Words{red.line_line, green.line_line, blue.line_line, 0};
-    line_pixel = Words{red.line_pixel, green.line_pixel, blue.line_pixel, 0};
-    pixel_pixel = Words{red.pixel_pixel, green.pixel_pixel, blue.pixel_pixel, 0};
-  }
-  // Carries come and go without a pattern: no branch.
-  void step_line(bool carries) {
-    constexpr std::uint64_t kAll = ~std::uint64_t{0};
-    static constexpr Words kSecond[] = {{0, 0, 0, 0}, {kAll, kAll, kAll, kAll}};
-    const Words second = kSecond[carries ? 1 : 0];
-    start += line_step;
-    pixel_step += line_pixel;
-    line_step += line_line;
-    start += pixel_step & second;
-    pixel_step += pixel_pixel & second;
-    line_step += line_pixel & second;
-  }
-  void put(Span& span) const {
-    std::memcpy(span.i, &start, sizeof(start));
-    std::memcpy(span.di, &pixel_step, sizeof(pixel_step));
-    std::memcpy(span.pixel_pixel, &pixel_pixel, sizeof(pixel_pixel));
-  }
-};
+void put(const StartEdgeRegisters& registers, Span& span) {
+  std::copy(std::begin(registers.start), std::end(registers.start), span.i);
+  std::copy(std::begin(registers.pixel_step), std::end(registers.pixel_step), span.di);
+  std::copy(std::begin(registers.pixel_pixel), std::end(registers.pixel_pixel), span.pixel_pixel);
+}
 
 }  // namespace
 
@@ -62,12 +31,15 @@ PixelFormat pixel_format(const SpanUnitParameters& parameters) {
           static_cast<unsigned>(parameters.depth_bits), static_cast<unsigned>(parameters.depth_fraction_bits)};
 }
 
-SpanUnit::SpanUnit(const SpanUnitParameters& parameters, std::uint32_t columns, std::uint32_t lines)
+SpanUnit::SpanUnit(const SpanUnitParameters& parameters, std::uint32_t columns, std::uint32_t lines,
+                   VectorVariant variant)
     : parameters_(parameters),
       columns_(columns),
       sharing_(parameters.share == Share::columns ? parameters.units : 1),
       lattice_(parameters.start_edge == StartEdge::lattice),
+      prestepped_(parameters.start_edge == StartEdge::prestep),
       carry_takes_a_clock_(lattice_ && parameters.carry == Carry::clock),
+      kernels_(line_kernels(variant)),
       spans_(lines),
       carries_(lines),
       shifts_(lines) {}
@@ -94,84 +66,86 @@ void SpanUnit::shift(Span& span, const Shift& at) const {
   }
 }
 
-void SpanUnit::note_shift(std::size_t line, const EdgeWords& start, const EdgeWords& end) {
-  if (!shifted_) std::fill(shifts_.begin(), shifts_.end(), Shift{});
-  shifted_ = true;
-  Shift& shift = shifts_[line];
-  if (parameters_.start_edge == StartEdge::prestep) {
+SpanUnit::Shift SpanUnit::shift_of(const EdgeWords& start, const EdgeWords& end) {
+  Shift shift;
+  if (prestepped_) {
     const double distance = static_cast<double>(start.rest) / static_cast<double>(start.divisor);
     shift.rest_bits = round_half_up(std::ldexp(distance, static_cast<int>(parameters_.prestep_bits)));
   }
-  if (start.column >= 0) return;
+  if (start.column >= 0) return shift;
   shift.skipped = static_cast<std::uint64_t>(-start.column);
   counters_.off_screen +=
       static_cast<std::uint64_t>(std::max<std::int64_t>(std::min<std::int64_t>(end.column, 0) - start.column, 0));
+  return shift;
 }
 
-// Where the lines begin and end, and what they take.
-DrawnLines SpanUnit::cross(const TriangleLoad& triangle, std::size_t lines) {
-  const std::int64_t columns = columns_;
-  const std::int64_t sharing = sharing_;
-  const std::int64_t pixel_cycles = parameters_.pixel_cycles;
-  const bool lattice = lattice_;
-  const bool carry_clock = carry_takes_a_clock_;
-  const bool prestepped = parameters_.start_edge == StartEdge::prestep;
-  Span* const spans = spans_.data();
-  std::uint8_t* const carried = carries_.data();
-  shifted_ = false;
-  std::uint64_t all_pixels = 0, all_cycles = 0, carries_made = 0, empty = 0;
-  std::size_t line = 0;
-  EdgeWords start;
-  EdgeWords end;
-  for (std::size_t h = 0; h < triangle.count; ++h) {
-    const HalfTriangle& half = triangle.halves[h];
-    // The step from the line before; from the first half's last line only where its edge goes on.
-    const bool start_goes_on = h == 1 && triangle.second_goes_on;
-    const bool end_goes_on = h == 1 && !triangle.second_goes_on;
-    if (!start_goes_on) start = half.start;
-    if (!end_goes_on) end = half.end;
-    auto number = static_cast<std::uint32_t>(half.first_line);
-    for (std::int64_t k = 0; k < half.lines; ++k, ++line, ++number) {
-      const bool carries = (k > 0 || start_goes_on) && start.advance();
-      if (k > 0 || end_goes_on) end.advance();
-      const std::int64_t first = std::clamp<std::int64_t>(start.column, 0, columns);
-      const std::int64_t last = std::clamp<std::int64_t>(end.column, first, columns);
-      // Several units that share the columns end a line together.
-      const std::int64_t stepped = std::max<std::int64_t>(std::min(end.column, columns) - start.column, 0);
-      const std::int64_t most = sharing == 1 ? stepped : (stepped + sharing - 1) / sharing;
-      Span& span = spans[line];
-      span.line = number;
-      span.column = static_cast<std::uint32_t>(first);
-      span.count = static_cast<std::uint32_t>(last - first);
-      span.cycles = static_cast<std::uint64_t>(std::max<std::int64_t>(most * pixel_cycles, 1)) +
-                    static_cast<std::uint64_t>(carries && carry_clock);
-      carried[line] = static_cast<std::uint8_t>(carries && lattice);
-      carries_made += carried[line];
-      all_pixels += span.count;
-      all_cycles += span.cycles;
-      empty += static_cast<std::uint64_t>(span.count == 0);
-      if (start.column < 0 || prestepped) note_shift(line, start, end);
-    }
-  }
-  counters_.carries += carries_made;
-  counters_.pixels += all_pixels;
-  counters_.empty_lines += empty;
-  return {{spans, lines}, all_pixels, all_cycles};
+// Is every pixel that is stepped through on the screen? Columns move by `step` or one more a line.
+bool SpanUnit::lies_on_screen(const Drawing& drawing, std::int64_t lines) const {
+  const EdgeWords &start = drawing.start, &end = drawing.end;
+  const std::int64_t leftmost = start.column + std::min<std::int64_t>(start.step, 0) * lines;
+  const std::int64_t rightmost = end.column + std::max<std::int64_t>(end.step + 1, 0) * lines;
+  return leftmost >= 0 && rightmost <= columns_;
 }
 
-// What the registers hold at each line.
-void SpanUnit::step(const TriangleLoad& triangle, std::size_t lines) {
-  std::size_t line = 0;
-  StartEdgeRegisters registers(triangle.halves[0]);
-  for (std::size_t h = 0; h < triangle.count; ++h) {
-    const bool goes_on = h == 1 && triangle.second_goes_on;
-    if (h == 1 && !goes_on) registers = StartEdgeRegisters(triangle.halves[1]);
-    const std::size_t end = line + static_cast<std::size_t>(triangle.halves[h].lines);
-    for (const std::size_t loaded = goes_on ? lines : line; line < end; ++line) {
-      if (line != loaded) registers.step_line(carries_[line] != 0);
-      registers.put(spans_[line]);
-    }
+// Nothing to clip, no other unit: edges and registers in one go.
+void SpanUnit::draw_on_screen(const HalfTriangle& half, Drawing& drawing) {
+  HalfLines lines;
+  lines.start = &drawing.start;
+  lines.end = &drawing.end;
+  lines.start_goes_on = drawing.start_goes_on ? -1 : 0;
+  lines.end_goes_on = drawing.end_goes_on ? -1 : 0;
+  lines.carry_steps = lattice_ ? -1 : 0;
+  lines.carry_cycles = carry_takes_a_clock_ ? 1 : 0;
+  lines.pixel_cycles = parameters_.pixel_cycles;
+  lines.first_line = static_cast<std::uint32_t>(half.first_line);
+  lines.lines = static_cast<std::size_t>(half.lines);
+  const HalfSums sums = kernels_.half(lines, drawing.start_goes_on ? drawing.registers : half.registers,
+                                      drawing.registers, spans_.data() + drawing.line);
+  drawing.pixels += sums.pixels;
+  drawing.cycles += sums.cycles;
+  counters_.carries += sums.carries;
+  counters_.empty_lines += sums.empty_lines;
+}
+
+// Where the lines of a half begin and end, and what they take.
+void SpanUnit::cross(const HalfTriangle& half, Drawing& drawing) {
+  EdgeWords start = drawing.start, end = drawing.end;
+  for (std::int64_t k = 0; k < half.lines; ++k) {
+    const bool carries = (k > 0 || drawing.start_goes_on) && start.advance();
+    if (k > 0 || drawing.end_goes_on) end.advance();
+    const std::int64_t first = std::clamp<std::int64_t>(start.column, 0, columns_);
+    const std::int64_t last = std::clamp<std::int64_t>(end.column, first, columns_);
+    // Several units that share the columns end a line together.
+    const std::int64_t stepped = std::max<std::int64_t>(std::min(end.column, columns_) - start.column, 0);
+    const std::int64_t most = (stepped + sharing_ - 1) / sharing_;
+    const std::size_t line = drawing.line + static_cast<std::size_t>(k);
+    Span& span = spans_[line];
+    span.line = static_cast<std::uint32_t>(half.first_line + k);
+    span.column = static_cast<std::uint32_t>(first);
+    span.count = static_cast<std::uint32_t>(last - first);
+    span.cycles = static_cast<std::uint64_t>(std::max<std::int64_t>(most * parameters_.pixel_cycles, 1)) +
+                  (carries && carry_takes_a_clock_ ? 1U : 0U);
+    carries_[line] = carries && lattice_ ? 1 : 0;
+    counters_.carries += carries_[line];
+    counters_.empty_lines += span.count == 0 ? 1 : 0;
+    drawing.pixels += span.count;
+    drawing.cycles += span.cycles;
+    shifts_[line] = shift_of(start, end);
   }
+  drawing.start = start;
+  drawing.end = end;
+}
+
+// What the registers hold at each line of a half.
+void SpanUnit::step(const HalfTriangle& half, Drawing& drawing) {
+  std::size_t line = drawing.line;
+  const std::size_t end = line + static_cast<std::size_t>(half.lines);
+  if (!drawing.start_goes_on) {
+    drawing.registers = half.registers;
+    put(drawing.registers, spans_[line++]);
+  }
+  kernels_.step(drawing.registers, carries_.data() + line, end - line, spans_.data() + line);
+  for (line = drawing.line; line < end; ++line) shift(spans_[line], shifts_[line]);
 }
 
 DrawnLines SpanUnit::draw(const TriangleLoad& triangle) {
@@ -184,11 +158,24 @@ DrawnLines SpanUnit::draw(const TriangleLoad& triangle) {
   }
   ++counters_.triangles;
   counters_.lines += lines;
-  const DrawnLines drawn = cross(triangle, lines);
-  step(triangle, lines);
-  if (shifted_)
-    for (std::size_t line = 0; line < lines; ++line) shift(spans_[line], shifts_[line]);
-  return drawn;
+  Drawing drawing;
+  for (std::size_t h = 0; h < triangle.count; ++h) {
+    const HalfTriangle& half = triangle.halves[h];
+    // The step from the line before; from the first half's last line only where its edge goes on.
+    drawing.start_goes_on = h == 1 && triangle.second_goes_on;
+    drawing.end_goes_on = h == 1 && !triangle.second_goes_on;
+    if (!drawing.end_goes_on) drawing.end = half.end;
+    if (!drawing.start_goes_on) drawing.start = half.start;
+    if (sharing_ == 1 && !prestepped_ && lies_on_screen(drawing, half.lines)) {
+      draw_on_screen(half, drawing);
+    } else {
+      cross(half, drawing);
+      step(half, drawing);
+    }
+    drawing.line += static_cast<std::size_t>(half.lines);
+  }
+  counters_.pixels += drawing.pixels;
+  return {{spans_.data(), lines}, drawing.pixels, drawing.cycles};
 }
 
 }  // namespace rastertlm::span_unit

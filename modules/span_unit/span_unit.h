@@ -6,9 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "modules/span_unit/line_kernels.h"
 #include "modules/span_unit/parameters.h"
 #include "modules/span_unit/span.h"
 #include "modules/span_unit/span_words.h"
+#include "src/base/vector_variant.h"
 
 namespace rastertlm::span_unit {
 
@@ -32,7 +34,8 @@ struct DrawnLines {
 
 class SpanUnit {
  public:
-  SpanUnit(const SpanUnitParameters& parameters, std::uint32_t columns, std::uint32_t lines);
+  SpanUnit(const SpanUnitParameters& parameters, std::uint32_t columns, std::uint32_t lines,
+           VectorVariant variant = vector_variant());
 
   // Valid until the next call.
   DrawnLines draw(const TriangleLoad& triangle);
@@ -45,20 +48,34 @@ class SpanUnit {
     std::uint64_t skipped = 0;   // pixels left of the screen
     std::int64_t rest_bits = 0;  // prestep: from the edge to the first pixel, in prestep_bits
   };
-  DrawnLines cross(const TriangleLoad& triangle, std::size_t lines);
-  void note_shift(std::size_t line, const EdgeWords& start, const EdgeWords& end);
-  void step(const TriangleLoad& triangle, std::size_t lines);
+  // A triangle while its halves are drawn: edges and registers at the last line so far, and what was found.
+  struct Drawing {
+    EdgeWords start;
+    EdgeWords end;
+    StartEdgeRegisters registers;
+    bool start_goes_on = false;  // from the half before
+    bool end_goes_on = false;
+    std::size_t line = 0;  // of the triangle
+    std::uint64_t pixels = 0;
+    std::uint64_t cycles = 0;
+  };
+  bool lies_on_screen(const Drawing& drawing, std::int64_t lines) const;
+  void draw_on_screen(const HalfTriangle& half, Drawing& drawing);
+  void cross(const HalfTriangle& half, Drawing& drawing);
+  void step(const HalfTriangle& half, Drawing& drawing);
+  Shift shift_of(const EdgeWords& start, const EdgeWords& end);
   void shift(Span& span, const Shift& at) const;
 
   SpanUnitParameters parameters_;
   std::int64_t columns_;
   std::int64_t sharing_;  // units that share the columns
   bool lattice_;
+  bool prestepped_;
   bool carry_takes_a_clock_;
+  const LineKernels& kernels_;
   std::vector<Span> spans_;            // the first ones are the last triangle's
   std::vector<std::uint8_t> carries_;  // of each: the registers make a second step
   std::vector<Shift> shifts_;
-  bool shifted_ = false;  // some of the triangle's lines are
   SpanCounters counters_;
 };
 

@@ -6,9 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "modules/span_unit/span.h"
+
 namespace rastertlm::span_unit {
 
-// Quadratic on the screen: from pixel to pixel I += dI, dI += xx; from line to line I += dIstart and so on.
+// A set of registers, quadratic on the screen: from pixel to pixel I += dI, dI += xx; from line to line I += dIstart
+// and so on.
 struct ColourWords {
   std::uint64_t start = 0;        // Istart, 0.5 included
   std::uint64_t line_step = 0;    // dIstart: to the next line's start
@@ -19,24 +22,20 @@ struct ColourWords {
   friend bool operator==(const ColourWords&, const ColourWords&) = default;
 };
 
-// Linear: the same without second differences.
-struct DepthWords {
-  std::uint64_t start = 0;
-  std::uint64_t line_step = 0;
-  std::uint64_t pixel_step = 0;
-  friend bool operator==(const DepthWords&, const DepthWords&) = default;
-};
+inline ColourWords words_of(const StartEdgeRegisters& registers, std::size_t set) {
+  return {registers.start[set],     registers.line_step[set],  registers.pixel_step[set],
+          registers.line_line[set], registers.line_pixel[set], registers.pixel_pixel[set]};
+}
+inline void put_words(const ColourWords& words, std::size_t set, StartEdgeRegisters& registers) {
+  registers.start[set] = words.start;
+  registers.line_step[set] = words.line_step;
+  registers.pixel_step[set] = words.pixel_step;
+  registers.line_line[set] = words.line_line;
+  registers.line_pixel[set] = words.line_pixel;
+  registers.pixel_pixel[set] = words.pixel_pixel;
+}
 
-// The first column at or right of an edge, line by line, in integers: column - rest / divisor is where the edge stands.
-// 0 <= rest, rest_step < divisor. A line: column += step, rest -= rest_step; where that is negative, rest += divisor
-// and column += 1: the carry.
-struct EdgeWords {
-  std::int64_t column = 0;
-  std::int64_t step = 0;  // floor of the slope
-  std::int64_t rest = 0;
-  std::int64_t rest_step = 0;
-  std::int64_t divisor = 1;
-
+struct EdgeWords : EdgeRegisters {
   // Without a branch: carries come and go without a pattern.
   bool advance() {
     rest -= rest_step;
@@ -56,8 +55,7 @@ struct HalfTriangle {
   std::int64_t lines = 0;
   EdgeWords start;
   EdgeWords end;
-  std::array<ColourWords, kChannels> colour;
-  DepthWords depth;
+  StartEdgeRegisters registers;
 };
 
 // One or two halves; the second goes on where the first ends. A half whose start edge is the first's goes on with its

@@ -94,7 +94,7 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
       video::FrameAssembly::Format{static_cast<std::size_t>(machine.video.columns),
                                    static_cast<std::size_t>(machine.video.lines), 1, 12, 0, false},
       [this](std::uint64_t, std::size_t, const frame::Frame& pixels_shown, std::uint64_t last_line_ps) {
-        pixels_ = pixels_shown;
+        shown_pixels_ = options_.observe ? &(pixels_ = pixels_shown) : &pixels_shown;
         shown_.last_pixel_ps =
             last_line_ps + timing_.clock.picoseconds(Cycles(static_cast<std::uint64_t>(machine_.video.columns) - 1));
       });
@@ -154,7 +154,7 @@ void Quadratic::run() {
     if (!waiting_) continue;
     waiting_ = false;
     frames_.push_back(shown_);
-    if (sink_) sink_(shown_, pixels_);
+    if (sink_) sink_(shown_, *shown_pixels_);
   }
   check_identities();
 }

@@ -89,7 +89,8 @@ class Quadratic {
   std::unique_ptr<video::VideoOutputModule> video_output_;
 
   ShownFrame shown_;
-  frame::Frame pixels_;
+  frame::Frame pixels_;                          // with what observers see
+  const frame::Frame* shown_pixels_ = &pixels_;  // that, or the screen's alone
   span_unit::SpanCounters drawn_before_;
   std::vector<std::uint64_t> busy_before_;  // of each span unit
   std::uint64_t waiting_before_ = 0;

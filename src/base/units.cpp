@@ -9,6 +9,13 @@ namespace {
 __extension__ using Wide = unsigned __int128;
 constexpr std::uint64_t kPicosecondsPerSecond = 1'000'000'000'000;
 constexpr std::uint64_t kFemtosecondsPerPicosecond = 1000;
+
+// Most fit into a word, and divisions of words are much the faster.
+std::uint64_t quotient(Wide dividend, std::uint64_t divisor) {
+  const auto low = static_cast<std::uint64_t>(dividend);
+  if (dividend == low) return low / divisor;
+  return static_cast<std::uint64_t>(dividend / divisor);
+}
 }  // namespace
 
 Clock::Clock(std::string name, std::uint64_t numerator_ps, std::uint64_t denominator) : name_(std::move(name)) {
@@ -39,8 +46,7 @@ double Clock::frequency_hz() const {
 }
 
 std::uint64_t Clock::picoseconds(Cycles n) const {
-  const Wide product = static_cast<Wide>(n.count()) * numerator_ps_;
-  return static_cast<std::uint64_t>((product + denominator_ / 2) / denominator_);
+  return quotient(static_cast<Wide>(n.count()) * numerator_ps_ + denominator_ / 2, denominator_);
 }
 
 double Clock::seconds(Cycles n) const { return static_cast<double>(picoseconds(n)) * 1e-12; }
@@ -53,7 +59,7 @@ Cycles Clock::cycles_at(std::uint64_t picoseconds) const {
   // The least n with picoseconds(n) >= the time: picoseconds() rounds to nearest.
   const Wide product = static_cast<Wide>(picoseconds) * denominator_;
   const Wide half = denominator_ / 2;
-  return Cycles(product <= half ? 0 : static_cast<std::uint64_t>((product - half + numerator_ps_ - 1) / numerator_ps_));
+  return Cycles(product <= half ? 0 : quotient(product - half + numerator_ps_ - 1, numerator_ps_));
 }
 
 }  // namespace rastertlm

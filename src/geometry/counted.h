@@ -27,6 +27,7 @@ struct OperationCounts {
 
   OperationCounts& operator+=(const OperationCounts& o);
   friend OperationCounts operator-(OperationCounts a, const OperationCounts& b);
+  friend OperationCounts operator*(OperationCounts a, std::uint64_t times);
   friend bool operator==(const OperationCounts&, const OperationCounts&) = default;
 };
 
@@ -51,6 +52,18 @@ inline OperationCounts operator-(OperationCounts a, const OperationCounts& b) {
   a.convert -= b.convert;
   a.integer -= b.integer;
   a.integer_multiply -= b.integer_multiply;
+  return a;
+}
+
+inline OperationCounts operator*(OperationCounts a, std::uint64_t times) {
+  a.add *= times;
+  a.multiply *= times;
+  a.divide *= times;
+  a.square_root *= times;
+  a.compare *= times;
+  a.convert *= times;
+  a.integer *= times;
+  a.integer_multiply *= times;
   return a;
 }
 

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "platforms/quadratic/quadratic.h"
 #include "tests/benchmark/benchmark_scene.h"
@@ -121,13 +122,13 @@ std::string measured(std::size_t triangles, std::size_t pairs) {
                      b / static_cast<double>(loop->covered()));
 }
 
-int run(std::size_t pairs) {
+int run(std::size_t pairs, const std::vector<std::size_t>& sizes) {
   fmt::print(
       "Quadratic machine; plain loop for {}. Milliseconds a frame, medians of {} interleaved pairs.\n\n"
       "triangles   covered | simulated     plain  ratio |   ns/cov\n",
       plain::best_variant(), pairs);
   bool good = true;
-  for (const std::size_t triangles : {std::size_t{64}, std::size_t{1024}}) {
+  for (const std::size_t triangles : sizes) {
     const std::string row = test::in_child([&] { return measured(triangles, pairs); });
     fmt::print("{}\n", row);
     good = good && !row.starts_with("different");
@@ -142,9 +143,12 @@ int sc_main(int, char**) { return 0; }
 
 int main(int argc, char** argv) {
   try {
-    const bool has_pairs = argc == 3 && std::string(argv[1]) == "--pairs";
-    if (argc != 1 && !has_pairs) throw std::invalid_argument("benchmark_quadratic [--pairs N]");
-    return rastertlm::benchmark::run(has_pairs ? std::stoul(argv[2]) : 30);
+    const bool has_pairs = argc >= 3 && std::string(argv[1]) == "--pairs";
+    if (argc > 4 || (argc > 1 && !has_pairs))
+      throw std::invalid_argument("benchmark_quadratic [--pairs N [TRIANGLES]]");
+    const std::vector<std::size_t> sizes =
+        argc == 4 ? std::vector<std::size_t>{std::stoul(argv[3])} : std::vector<std::size_t>{64, 1024};
+    return rastertlm::benchmark::run(has_pairs ? std::stoul(argv[2]) : 30, sizes);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 2;

@@ -153,6 +153,7 @@ TEST_P(TriangleKernels, TransformAsOneByOne) {
         ASSERT_EQ(std::bit_cast<std::uint64_t>(screen.x[i][lane]), std::bit_cast<std::uint64_t>(corners[i].x));
         ASSERT_EQ(std::bit_cast<std::uint64_t>(screen.y[i][lane]), std::bit_cast<std::uint64_t>(corners[i].y));
         ASSERT_EQ(std::bit_cast<std::uint64_t>(screen.z[i][lane]), std::bit_cast<std::uint64_t>(corners[i].z));
+        ASSERT_EQ(screen.inverse_w[i][lane], corners[i].inverse_w);
         for (int c = 0; c < 3; ++c) ASSERT_EQ(screen.normal[i][c][lane], corners[i].normal[c]);
       }
     }

@@ -1,4 +1,5 @@
-// Does the span unit show what its registers step through, in every width and start edge, and count its clocks?
+// Does the span unit show what its registers step through, in every width, start edge and variant, and count its
+// clocks?
 #include "modules/span_unit/span_unit.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 namespace rastertlm::span_unit {
 namespace {
 
-class SpanUnitTest : public testing::Test {
+class SpanUnitTest : public testing::TestWithParam<VectorVariant> {
  protected:
   std::mt19937_64 random_{11};
   std::int64_t number(std::int64_t low, std::int64_t high) {
@@ -36,8 +37,9 @@ class SpanUnitTest : public testing::Test {
     for (HalfTriangle& half : load.halves) {
       half.start = edge(-20, 40);
       half.end = edge(30, 90);
-      for (ColourWords& c : half.colour) c = {random_(), random_(), random_(), random_(), random_(), random_()};
-      half.depth = {random_(), random_(), random_()};
+      for (std::size_t c = 0; c < kChannels; ++c)
+        put_words({random_(), random_(), random_(), random_(), random_(), random_()}, c, half.registers);
+      put_words({random_(), random_(), random_(), 0, 0, 0}, kDepthSet, half.registers);
     }
     return load;
   }
@@ -59,9 +61,10 @@ struct Drawn {
   std::uint64_t cycles = 0;
 };
 
-Drawn drawn_by_unit(const SpanUnitParameters& parameters, const TriangleLoad& load) {
+Drawn drawn_by_unit(const SpanUnitParameters& parameters, const TriangleLoad& load,
+                    VectorVariant variant = VectorVariant::baseline) {
   Drawn drawn;
-  SpanUnit unit(parameters, kColumns, kLines);
+  SpanUnit unit(parameters, kColumns, kLines, variant);
   const DrawnLines lines = unit.draw(load);
   std::uint64_t cycles = 0;
   std::uint64_t shown = 0;
@@ -96,8 +99,8 @@ Drawn drawn_by_registers(const SpanUnitParameters& parameters, const TriangleLoa
     for (std::int64_t k = 0; k < half.lines; ++k) {
       bool carries = false;
       if (k == 0 && loads) {
-        for (std::size_t c = 0; c < 3; ++c) colour[c].load(half.colour[c]);
-        depth.load({half.depth.start, half.depth.line_step, half.depth.pixel_step, 0, 0, 0});
+        for (std::size_t c = 0; c < 3; ++c) colour[c].load(words_of(half.registers, c));
+        depth.load(words_of(half.registers, kDepthSet));
         start = half.start;
       } else {
         carries = start.advance();
@@ -126,7 +129,7 @@ Drawn drawn_by_registers(const SpanUnitParameters& parameters, const TriangleLoa
   return drawn;
 }
 
-TEST_F(SpanUnitTest, ShowsWhatTheRegistersStepThrough) {
+TEST_P(SpanUnitTest, ShowsWhatTheRegistersStepThrough) {
   std::size_t shown = 0;
   for (const std::int64_t word : {18, 32, 33, 40})
     for (const StartEdge start : {StartEdge::lattice, StartEdge::published})
@@ -140,7 +143,7 @@ TEST_F(SpanUnitTest, ShowsWhatTheRegistersStepThrough) {
           parameters.start_edge = start;
           parameters.carry = carry;
           const TriangleLoad triangle = load(kLines);
-          const Drawn by_unit = drawn_by_unit(parameters, triangle);
+          const Drawn by_unit = drawn_by_unit(parameters, triangle, GetParam());
           const Drawn by_registers = drawn_by_registers(parameters, triangle);
           ASSERT_EQ(by_unit.picture, by_registers.picture);
           ASSERT_EQ(by_unit.cycles, by_registers.cycles);
@@ -148,6 +151,9 @@ TEST_F(SpanUnitTest, ShowsWhatTheRegistersStepThrough) {
         }
   EXPECT_GT(shown, 100'000U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Variants, SpanUnitTest, testing::ValuesIn(available_vector_variants()),
+                         [](const auto& one) { return name_of(one.param); });
 
 TEST(SpanUnit, SharedColumnsEndALineTogether) {
   TriangleLoad load;

@@ -1,0 +1,2 @@
+#define RASTERTLM_KERNELS line_kernels_avx2
+#include "modules/span_unit/line_kernels_body.inc"
