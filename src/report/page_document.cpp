@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "src/base/digest.h"
 #include "src/report/page_assets.h"
 
@@ -71,6 +73,10 @@ std::string base64(std::span<const std::uint8_t> bytes) {
       text += k <= there ? kDigits[group >> (kDigitBits * (kGroup - k)) & kDigitMask] : '=';
   }
   return text;
+}
+
+std::string json_string(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::string base64(std::string_view bytes) {

@@ -23,6 +23,9 @@ struct PageDocument {
 // document.
 std::string page_text(const PageDocument& document);
 
+// A text as JSON has it, quotes included; bytes that are not UTF-8 are replaced.
+std::string json_string(const std::string& text);
+
 std::string base64(std::span<const std::uint8_t> bytes);
 std::string base64(std::string_view bytes);
 

@@ -13,8 +13,8 @@ constexpr std::uintmax_t kMostBytesOfARun = 3'000'000;
 class PagesTest : public ProgramTest {
  protected:
   void expect_good_page(const std::string& directory, const std::string& name) const {
-    const Outcome outcome = check_page("check_run_page.py", {in_work(directory), RASTERTLM_ARTEFACTS, name});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    const PageOutcome outcome = check_page("check_run_page.py", {in_work(directory), RASTERTLM_ARTEFACTS, name});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
   }
   static std::string config(const std::string& name) { return std::string(RASTERTLM_SOURCE_DIR) + "/configs/" + name; }
 };

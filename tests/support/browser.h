@@ -8,15 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/run_program.h"
-
 namespace rastertlm::test {
 
-// Its exit code, and what it printed: the checks that failed.
-inline Outcome check_page(const std::string& program, const std::vector<std::string>& arguments) {
+struct PageOutcome {
+  int exit_code = -1;
+  std::string out;  // the checks that failed
+};
+
+inline PageOutcome check_page(const std::string& program, const std::vector<std::string>& arguments) {
   std::string command = "python3 '" + std::string(RASTERTLM_SOURCE_DIR) + "/tests/pages/" + program + '\'';
   for (const std::string& argument : arguments) command += " '" + argument + '\'';
-  Outcome outcome;
+  PageOutcome outcome;
   std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return outcome;
   std::array<char, 4096> block{};

@@ -81,13 +81,13 @@ function table(headers, rows, options) {
           element('tbody', {}, rows.map((row) => element('tr', {}, row.map(cell))))));
 }
 
-// A chart takes its size from where it stands, so it is drawn when the page is.
+// A chart takes its size from where it stands, so it is drawn when the page is; its configuration may be a function.
 const waiting = [];
 function chart(id, height, configuration) {
   const canvas = element('canvas', {id});
   const box = element('div', {class: 'chart'}, canvas);
   box.style.height = height + 'px';
-  waiting.push(() => new Chart(canvas, configuration));
+  waiting.push(() => new Chart(canvas, typeof configuration === 'function' ? configuration() : configuration));
   return box;
 }
 
