@@ -19,6 +19,7 @@ void Machine::declare(parameter::Table& table) {
   set_up.declare(table);
   span_unit.declare(table);
   frame_store.declare(table);
+  software.declare(table);
 }
 
 void Machine::check(Diagnostics& diagnostics, const std::string& file) const {

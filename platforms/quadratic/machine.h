@@ -8,6 +8,7 @@
 #include "modules/frame_store/parameters.h"
 #include "modules/host/parameters.h"
 #include "modules/host/set_up_work.h"
+#include "modules/host/software_renderer.h"
 #include "modules/set_up/parameters.h"
 #include "modules/span_unit/parameters.h"
 #include "modules/video/parameters.h"
@@ -29,6 +30,7 @@ struct Machine {
   set_up::SetUpParameters set_up;
   span_unit::SpanUnitParameters span_unit;
   frame_store::FrameStoreParameters frame_store;
+  host::SoftwareParameters software;  // that the machine is compared with
 
   void declare(parameter::Table& table);
   // What no single range can say; `file` names the machine file in the diagnostics.

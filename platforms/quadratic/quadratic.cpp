@@ -37,6 +37,13 @@ std::vector<geometry::Reflectance> surfaces_of(const scene::Scene& scene) {
   return surfaces;
 }
 
+geometry::LightingRules rules_of(const scene::Scene& scene) {
+  return {scene.model == scene::LightingModel::phong ? geometry::Model::phong : geometry::Model::blinn,
+          scene.specular_gate, scene.ambient_light};
+}
+
+bool viewer_at_eye(const scene::Scene& scene) { return scene.camera.projection == scene::ProjectionKind::perspective; }
+
 frame_store::FrameStore::Format store_format(const Machine& machine, const scene::Scene& scene, bool observe) {
   frame_store::FrameStore::Format format;
   format.columns = static_cast<std::uint32_t>(machine.video.columns);
@@ -62,11 +69,8 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
       resident_(resident_scene(machine, scene)),
       store_(machine.frame_store, store_format(machine, scene, options.observe)) {
   check_scene();
-  const geometry::LightingRules rules{
-      scene.model == scene::LightingModel::phong ? geometry::Model::phong : geometry::Model::blinn, scene.specular_gate,
-      scene.ambient_light};
-  work_ =
-      std::make_unique<host::SetUpWork>(resident_, machine.set_up, machine.set_up_format(), surfaces_of(scene), rules);
+  work_ = std::make_unique<host::SetUpWork>(resident_, machine.set_up, machine.set_up_format(), surfaces_of(scene),
+                                            rules_of(scene));
   const unsigned pixel_bits = static_cast<unsigned>(machine.span_unit.depth_bits) + frame_store::kColourBits;
   const Clock bus_clock =
       Clock::slower("bus words", cost_.clock(), static_cast<std::uint64_t>(machine.host.bus_cycles_per_word));
@@ -75,9 +79,8 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
   stream::Link& screen = links_.emplace_back("frame store to video", frame_store::kColourBits, timing_.clock);
   set_up_processor_ = std::make_unique<host::SetUpProcessorModule>(
       "set_up_processor", *work_, cost_,
-      host::SetUpProcessorModule::Timeline{resident_.pose,
-                                           scene.camera.projection == scene::ProjectionKind::perspective,
-                                           options.frames, [this](const auto& frame) { note_drawn(frame); }},
+      host::SetUpProcessorModule::Timeline{resident_.pose, viewer_at_eye(scene), options.frames,
+                                           [this](const auto& frame) { note_drawn(frame); }},
       bus);
   span_unit_ = std::make_unique<span_unit::SpanUnitModule>("span_unit", machine.span_unit,
                                                            static_cast<std::uint32_t>(machine.video.columns),
@@ -101,6 +104,11 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
   set_up_processor_->bus.bind(span_unit_->bus);
   span_unit_->out.bind(frame_store_->in);
   frame_store_->out.bind(video_output_->in);
+}
+
+host::Rendering Quadratic::rendering() const {
+  return {resident_,           machine_.set_up,  machine_.set_up_format(), machine_.span_unit,
+          surfaces_of(scene_), rules_of(scene_), viewer_at_eye(scene_)};
 }
 
 void Quadratic::check_scene() const {

@@ -11,6 +11,7 @@
 
 #include "modules/frame_store/frame_store_module.h"
 #include "modules/host/set_up_processor_module.h"
+#include "modules/host/software_renderer.h"
 #include "modules/span_unit/span_unit_module.h"
 #include "modules/video/video_output_module.h"
 #include "platforms/quadratic/machine.h"
@@ -55,6 +56,8 @@ class Quadratic {
   const video::Timing& timing() const { return timing_; }
   const host::HostCost& cost() const { return cost_; }
   const host::SetUpWork& work() const { return *work_; }
+  // How it renders the scene, for others that do. Outlived by the platform.
+  host::Rendering rendering() const;
   const host::SetUpProcessorModule& set_up_processor() const { return *set_up_processor_; }
   const span_unit::SpanUnitModule& span_unit() const { return *span_unit_; }
   const frame_store::FrameStore& store() const { return store_; }

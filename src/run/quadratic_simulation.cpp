@@ -12,10 +12,12 @@
 #include "src/reference/metrics.h"
 #include "src/reference/renderer.h"
 #include "src/reference/sphere_renderer.h"
+#include "src/run/drawing_limits.h"
 #include "src/run/host_figures.h"
 #include "src/run/inputs.h"
 #include "src/run/quadratic_budgets.h"
 #include "src/run/quadratic_figures.h"
+#include "src/run/software_budgets.h"
 
 namespace rastertlm::run {
 namespace {
@@ -150,6 +152,9 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   result.obtained_refresh_hz = platform->timing().obtained_refresh_hz();
   result.units = unit_figures(*platform);
   result.budgets = quadratic_budgets(*platform);
+  for (Budget& b : software_budgets(machine.software, platform->rendering(), platform->frames().front().set_up.pose,
+                                    frame_seconds(*platform)))
+    result.budgets.push_back(std::move(b));
   result.answer = quadratic_answer(*platform, result.budgets);
   result.links = link_figures(*platform);
   result.memories = memory_figures(*platform);

@@ -81,6 +81,9 @@ const std::map<std::string, Change>& special_changes() {
       {"span_unit.depth_bits", {{}, {"span_unit.depth_bits=22"}}},
       {"span_unit.depth_fraction_bits", {{}, {"span_unit.depth_fraction_bits=7"}}},
       {"span_unit.prestep_bits", {{"span_unit.start_edge=prestep"}, {"span_unit.prestep_bits=1"}}},
+      {"software.preset", {{}, {"software.preset=t800_20"}}},
+      {"software.frame_us", {{}, {"software.frame_us=5.0"}}},
+      {"software.triangle_us", {{}, {"software.triangle_us=5.0"}}},
       {"span_unit.share", {{"span_unit.units=2"}, {"span_unit.share=triangles"}}},
   };
   return changes;
