@@ -10,14 +10,14 @@
 namespace rastertlm::explore {
 namespace {
 
-// Where the path's parts begin, the last first. A point within brackets parts nothing.
+// Where the path's parts begin, the last first. A point within brackets parts nothing: "sum(memories[].words)" is one.
 std::vector<std::size_t> part_starts(const std::string& path) {
   std::vector<std::size_t> starts;
   int depth = 0;
   bool bracket_in_part = false;
   for (std::size_t i = path.size(); i-- > 0;) {
-    if (path[i] == ']') ++depth;
-    if (path[i] == '[') {
+    if (path[i] == ']' || path[i] == ')') ++depth;
+    if (path[i] == '[' || path[i] == '(') {
       --depth;
       bracket_in_part = true;
     }
