@@ -34,6 +34,8 @@ find_file(RASTERTLM_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js N
 if(NOT RASTERTLM_CHART_JS OR NOT EXISTS "${RASTERTLM_CHART_JS}")
   message(FATAL_ERROR "rastertlm needs libjs-chart.js: run scripts/install_dependencies, or apt-get install libjs-chart.js.")
 endif()
+rastertlm_find(SQLite::SQLite3 libsqlite3-dev SQLite3)
+rastertlm_find(ZLIB::ZLIB zlib1g-dev ZLIB)
 if(RASTERTLM_TESTS)
   rastertlm_find(GTest::gtest libgtest-dev GTest)
   rastertlm_find(GTest::gmock libgmock-dev GTest)

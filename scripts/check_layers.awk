@@ -64,6 +64,7 @@ function foreign_rule(file, name) {
   if (name ~ /^toml\+\+\// && file !~ /^(tests\/)?src\/config\//) return "toml++ only in src/config"
   if (name ~ /^nlohmann\// && file !~ /^(tests\/)?src\/report\//) return "nlohmann/json only in src/report"
   if (name ~ /^CLI\// && file !~ /^(tests\/)?src\/cli\//) return "CLI11 only in src/cli"
+  if (name ~ /^(sqlite3|zlib)\.h$/ && file !~ /^(tests\/)?src\/explore\//) return "SQLite and zlib only in src/explore"
   return ""
 }
 

@@ -138,7 +138,7 @@ report::VectorsManifest write_frame(imogene::Imogene& platform, const run::Input
   imogene::Machine resolved = machine;
   parameter::Table table = parameter::view(resolved);
   manifest.config_digest = config::digest(table);
-  manifest.scene_digest = inputs.content->scene.digest;
+  manifest.scene_digest = inputs.content->scene->digest;
   manifest.frame = shown.frame;
   manifest.field = shown.field;
   manifest.animation_frame = shown.animation_frame;
@@ -190,7 +190,7 @@ report::VectorsManifest write_vectors(const run::Inputs& inputs, const VectorsOp
   simulated.decided = recorder.decided();
   simulated.shaded = recorder.shaded();
   try {
-    platform = std::make_unique<imogene::Imogene>(machine, inputs.content->scene, simulated, show);
+    platform = std::make_unique<imogene::Imogene>(machine, *inputs.content->scene, simulated, show);
     platform->run();
   } catch (const InputError& error) {
     throw inputs.content->located(error);

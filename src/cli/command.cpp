@@ -9,7 +9,9 @@
 #include <new>
 #include <vector>
 
+#include "src/base/version.h"
 #include "src/cli/describe_command.h"
+#include "src/cli/explore_command.h"
 #include "src/cli/render_command.h"
 #include "src/cli/report_command.h"
 #include "src/cli/usage.h"
@@ -18,7 +20,6 @@
 namespace rastertlm::cli {
 namespace {
 
-constexpr const char* kVersion = "rastertlm 0.1.0";
 constexpr const char* kFooter =
     "Exit codes: 0 done; 1 done, but a stated requirement is not met; 2 bad input or usage;\n"
     "3 a rule of the model or an internal check was broken; 4 the output could not be written.";
@@ -28,6 +29,7 @@ using Commands = std::vector<std::unique_ptr<Command>>;
 Commands all_commands() {
   Commands commands;
   commands.push_back(std::make_unique<RenderCommand>());
+  commands.push_back(std::make_unique<ExploreCommand>());
   commands.push_back(std::make_unique<VectorsCommand>());
   commands.push_back(std::make_unique<ReportCommand>());
   commands.push_back(std::make_unique<DescribeCommand>());
@@ -70,7 +72,7 @@ ExitCode parse_and_run(int argc, char** argv) {
       "far\n"
       "is its picture from the exact one?");
   app.footer(kFooter);
-  app.set_version_flag("--version", kVersion);
+  app.set_version_flag("--version", fmt::format("rastertlm {}", kVersion));
   Command* chosen = nullptr;
   for (const auto& command : commands) {
     CLI::App* sub = app.add_subcommand(command->name(), command->summary());

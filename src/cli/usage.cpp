@@ -21,6 +21,15 @@ bool reads_as(const std::string& text, T& number) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+// 1 and 0 where the text is not two whole numbers and what stands between them.
+std::pair<std::uint64_t, std::uint64_t> two_numbers(const std::string& text, char between) {
+  const std::size_t at = std::min(text.find(between), text.size());
+  std::pair<std::uint64_t, std::uint64_t> numbers{1, 0};
+  const bool reads =
+      at < text.size() && reads_as(text.substr(0, at), numbers.first) && reads_as(text.substr(at + 1), numbers.second);
+  return reads ? numbers : std::pair<std::uint64_t, std::uint64_t>{1, 0};
+}
+
 }  // namespace
 
 std::string unknown_word(const std::string& kind, const std::string& word, const std::vector<std::string>& known) {
@@ -68,13 +77,8 @@ std::string field_number(const std::string& text) {
   return text == "0" || text == "1" ? "" : fmt::format("'{}' is neither 0, the even lines, nor 1, the odd ones", text);
 }
 
-std::pair<std::uint64_t, std::uint64_t> range_of(const std::string& text) {
-  const std::size_t dash = std::min(text.find('-'), text.size());
-  std::pair<std::uint64_t, std::uint64_t> range{1, 0};
-  const bool reads = dash < text.size() && reads_as(text.substr(0, dash), range.first) &&
-                     reads_as(text.substr(dash + 1), range.second);
-  return reads ? range : std::pair<std::uint64_t, std::uint64_t>{1, 0};
-}
+std::pair<std::uint64_t, std::uint64_t> range_of(const std::string& text) { return two_numbers(text, '-'); }
+std::pair<std::uint64_t, std::uint64_t> share_of(const std::string& text) { return two_numbers(text, '/'); }
 
 std::string whole_range(const std::string& text) {
   const auto [first, last] = range_of(text);

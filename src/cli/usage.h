@@ -26,4 +26,7 @@ std::string not_empty(const std::string& text);
 // FROM and TO of a text that whole_range() has nothing against.
 std::pair<std::uint64_t, std::uint64_t> range_of(const std::string& text);
 
+// K and N of "K/N"; 1 and 0 of a text that is not two whole numbers.
+std::pair<std::uint64_t, std::uint64_t> share_of(const std::string& text);
+
 }  // namespace rastertlm::cli

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "src/base/errors.h"
@@ -152,6 +153,13 @@ Document Document::from_text(std::string_view text, std::string file) {
            fmt::format("not valid TOML (column {}): {}", at.column, error.description()));
   }
   if (document.entries_.empty()) refuse(document.file_, 0, "is empty: there is no key in it");
+  return document;
+}
+
+Document Document::only(const std::function<bool(const Entry&)>& keep) const {
+  Document document;
+  document.file_ = file_;
+  std::copy_if(entries_.begin(), entries_.end(), std::back_inserter(document.entries_), keep);
   return document;
 }
 

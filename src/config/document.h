@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +36,8 @@ class Document {
 
   const std::string& file() const { return file_; }
   const std::vector<Entry>& entries() const { return entries_; }
+  // The same file without the entries that `keep` refuses: those that another reader takes.
+  Document only(const std::function<bool(const Entry&)>& keep) const;
   // The `value` entry at the path, or null.
   const Entry* find(std::string_view path) const;
 

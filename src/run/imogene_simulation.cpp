@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -14,8 +13,8 @@
 #include "src/frame/fields.h"
 #include "src/parameter/table.h"
 #include "src/reference/metrics.h"
-#include "src/reference/renderer.h"
 #include "src/run/deadlines.h"
+#include "src/run/exact_pictures.h"
 #include "src/run/host_figures.h"
 #include "src/run/imogene_budgets.h"
 #include "src/run/imogene_figures.h"
@@ -29,46 +28,37 @@ namespace {
 // they are woven of the poses of two fields, as the screen's picture is.
 class Exact {
  public:
-  Exact(const imogene::Machine& machine, const scene::Scene& scene)
-      : scene_(scene), fields_(machine.video.interlaced ? 2 : 1) {
-    options_.columns = static_cast<std::size_t>(machine.video.columns);
-    options_.lines = static_cast<std::size_t>(machine.video.lines);
-    options_.grids = imogene::snap_grids(machine);
-    options_.specular_mean = machine.shading.specular_tables == 1;
+  Exact(const imogene::Machine& machine, const scene::Scene& scene, ExactStore* store)
+      : source_(scene, store), fields_(machine.video.interlaced ? 2 : 1) {
+    for (const reference::RenderOptions& options : exact_options(machine)) pictures_.push_back({options});
   }
 
   void show(const imogene::ShownFrame& shown) {
     for (Picture& picture : pictures_) {
-      if (shown.updated) picture.of_pose = render(shown.pose, picture.kind);
+      if (shown.updated) picture.of_pose = source_.render(shown.pose, shown.animation_frame, picture.options);
       if (fields_ > 1) frame::copy_lines(picture.of_pose, shown.field, fields_, picture.woven);
     }
   }
   std::vector<reference::ErrorFigures> errors(const frame::Frame& shown) const {
     std::vector<reference::ErrorFigures> errors;
     for (const Picture& picture : pictures_)
-      errors.push_back(reference::compare(shown, on_screen(picture), reference::to_string(picture.kind)));
+      errors.push_back(reference::compare(shown, on_screen(picture), reference::to_string(picture.options.kind)));
     return errors;
   }
   const frame::ExactFrame& ideal() const { return on_screen(pictures_.front()); }
 
  private:
   struct Picture {
-    reference::Reference kind;
+    reference::RenderOptions options;
     frame::ExactFrame of_pose = {};
     frame::ExactFrame woven = {};  // where the video is interlaced
   };
   const frame::ExactFrame& on_screen(const Picture& picture) const {
     return fields_ > 1 ? picture.woven : picture.of_pose;
   }
-  frame::ExactFrame render(const scene::Pose& pose, reference::Reference kind) {
-    options_.kind = kind;
-    return reference::render(scene_, pose, options_);
-  }
-  const scene::Scene& scene_;
+  ExactPictures source_;
   std::size_t fields_;
-  reference::RenderOptions options_;
-  std::array<Picture, 3> pictures_{Picture{reference::Reference::ideal}, Picture{reference::Reference::snapped},
-                                   Picture{reference::Reference::true_model}};
+  std::vector<Picture> pictures_;
 };
 
 // What a displayed frame is from its first field on.
@@ -110,7 +100,7 @@ class DisplayedFrames {
  public:
   DisplayedFrames(const imogene::Machine& machine, const scene::Scene& scene, const Options& options,
                   const FrameSink& sink, std::vector<FrameFigures>& frames)
-      : exact_(machine, scene), reference_(options.reference), sink_(sink), frames_(frames) {}
+      : exact_(machine, scene, options.exact), reference_(options.reference), sink_(sink), frames_(frames) {}
 
   void add(const imogene::Imogene& platform, const imogene::ShownFrame& shown, const frame::Frame& pixels) {
     if (!meter_) meter_.emplace(platform);
@@ -169,7 +159,7 @@ void add_warnings(imogene::Imogene& platform, const shading::DeferredShader& sha
 
 Result simulate_imogene(const imogene::Machine& machine, const Inputs& inputs, const Options& options,
                         const FrameSink& sink) {
-  const scene::Scene& scene = inputs.content->scene;
+  const scene::Scene& scene = *inputs.content->scene;
   const auto start = std::chrono::steady_clock::now();
   std::chrono::steady_clock::duration outside{};  // spent in references and sinks, which is not the simulation's
 
@@ -190,9 +180,7 @@ Result simulate_imogene(const imogene::Machine& machine, const Inputs& inputs, c
   }
 
   result.platform = "imogene";
-  imogene::Machine resolved = machine;
-  parameter::Table table = parameter::view(resolved);
-  result.config_digest = config::digest(table);
+  result.config_digest = config_digest(inputs);
   result.scene_digest = scene.digest;
   result.frame_count = result.simulated_frames = options.frames;
   result.columns = static_cast<std::size_t>(machine.video.columns);

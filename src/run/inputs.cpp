@@ -1,6 +1,9 @@
 #include "src/run/inputs.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "src/config/document.h"
@@ -9,26 +12,25 @@
 #include "src/config/reader.h"
 #include "src/config/writer.h"
 #include "src/parameter/table.h"
+#include "src/run/input_files.h"
 #include "src/run/locate.h"
 
 namespace rastertlm::run {
 namespace {
 
 constexpr std::int64_t kSchema = 1;
+constexpr std::size_t kMostScenes = 64;  // kept: a sweep may vary a scene without end
 
 std::string first_key(const std::string& path) { return path.substr(0, path.find_first_of(".[")); }
 
-// The first keys of everything that a scene file may hold. --set gives a path of either file; where both might have it,
-// the machine does.
-bool names_scene(const std::string& path) {
+std::set<std::string> scene_keys() {
   scene::SceneDescription description;
   const parameter::Table table = parameter::view(description);
-  const std::string key = first_key(path);
+  std::set<std::string> keys;
   for (const parameter::Parameter& p : table.parameters())
-    if (p.path != "schema" && first_key(p.path) == key) return true;
-  for (const parameter::List& list : table.lists())
-    if (first_key(list.path) == key) return true;
-  return false;
+    if (p.path != "schema") keys.insert(first_key(p.path));
+  for (const parameter::List& list : table.lists()) keys.insert(first_key(list.path));
+  return keys;
 }
 
 // Files that cannot be read at all are reported together too.
@@ -41,42 +43,12 @@ void gather(Diagnostics& diagnostics, const Read& read) {
   }
 }
 
-void read_machine(const std::string& file, const std::vector<config::Override>& overrides, Inputs::Content& content,
-                  Diagnostics& diagnostics) {
-  const config::Document document = config::Document::from_file(file);
-  const bool schema = config::check_schema(document, kSchema, diagnostics);
-  const auto platform = config::choose_platform(document, overrides, {"imogene", "quadratic"}, diagnostics);
-  if (!schema || !platform) return;
-  if (*platform == "quadratic") content.machine = quadratic::Machine{};
-  Diagnostics found;
-  std::visit(
-      [&](auto& machine) {
-        parameter::Table table = parameter::view(machine);
-        content.machine_origins = config::read(document, table, overrides, found);
-        if (found.empty()) machine.check(found, file);
-      },
-      content.machine);
-  for (const Diagnostic& diagnostic : found.list()) diagnostics.add(located(diagnostic, content.machine_origins, file));
-}
-
-void read_scene(const std::string& file, const std::vector<config::Override>& overrides, Inputs::Content& content,
-                Diagnostics& diagnostics) {
-  const config::Document document = config::Document::from_file(file);
-  if (!config::check_schema(document, kSchema, diagnostics)) return;
-  parameter::Table table = parameter::view(content.description);
-  Diagnostics found;
-  content.scene_origins = config::read(document, table, overrides, found);
-  for (const Diagnostic& diagnostic : found.list()) diagnostics.add(diagnostic);
-  if (!found.empty()) return;
-  try {
-    content.scene = scene::build_scene(content.description, file, std::filesystem::path(file).parent_path().string());
-  } catch (const InputError& error) {
-    for (const Diagnostic& diagnostic : error.diagnostics())
-      diagnostics.add(located(diagnostic, content.scene_origins, file));
-  }
-}
-
 }  // namespace
+
+bool names_scene(const std::string& path) {
+  static const std::set<std::string> keys = scene_keys();
+  return keys.contains(first_key(path));
+}
 
 Inputs::Inputs(std::unique_ptr<Content> given) : content(std::move(given)) {}
 Inputs::Inputs(Inputs&&) noexcept = default;
@@ -84,19 +56,98 @@ Inputs& Inputs::operator=(Inputs&&) noexcept = default;
 Inputs::~Inputs() = default;
 
 Inputs read_inputs(const std::string& machine_file, const std::string& scene_file,
-                   const std::vector<std::string>& overrides) {
+                   const std::vector<std::string>& arguments) {
+  Diagnostics diagnostics;
+  const std::vector<config::Override> overrides = config::parse_overrides(arguments, diagnostics);
+  InputFiles files;
+  if (diagnostics.empty()) return files.read(machine_file, scene_file, overrides);
+  gather(diagnostics, [&] { files.read(machine_file, scene_file, overrides); });
+  throw InputError(diagnostics.list());
+}
+
+Inputs InputFiles::read(const std::string& machine_file, const std::string& scene_file,
+                        const std::vector<config::Override>& overrides) {
+  return read(machine_file, scene_file, overrides, true);
+}
+
+Inputs InputFiles::read_base(const std::string& machine_file, const std::string& scene_file,
+                             const std::vector<config::Override>& overrides) {
+  return read(machine_file, scene_file, overrides, false);
+}
+
+Inputs InputFiles::read(const std::string& machine_file, const std::string& scene_file,
+                        const std::vector<config::Override>& overrides, bool complete) {
   auto content = std::make_unique<Inputs::Content>();
   content->machine_file = machine_file;
   content->scene_file = scene_file;
   Diagnostics diagnostics;
   std::vector<config::Override> of_machine;
   std::vector<config::Override> of_scene;
-  for (config::Override& override : config::parse_overrides(overrides, diagnostics))
-    (names_scene(override.path) ? of_scene : of_machine).push_back(std::move(override));
-  gather(diagnostics, [&] { read_machine(machine_file, of_machine, *content, diagnostics); });
-  gather(diagnostics, [&] { read_scene(scene_file, of_scene, *content, diagnostics); });
+  for (const config::Override& override : overrides)
+    (names_scene(override.path) ? of_scene : of_machine).push_back(override);
+  gather(diagnostics, [&] { read_machine(of_machine, complete, *content, diagnostics); });
+  gather(diagnostics, [&] { read_scene(of_scene, *content, diagnostics); });
   diagnostics.throw_if_any();
   return Inputs(std::move(content));
+}
+
+const config::Document& InputFiles::document(const std::string& file) {
+  const auto known = documents_.find(file);
+  return known != documents_.end() ? known->second
+                                   : documents_.emplace(file, config::Document::from_file(file)).first->second;
+}
+
+void InputFiles::read_machine(const std::vector<config::Override>& overrides, bool complete, Inputs::Content& content,
+                              Diagnostics& diagnostics) {
+  const std::string& file = content.machine_file;
+  const config::Document& machine_file = document(file);
+  const bool schema = config::check_schema(machine_file, kSchema, diagnostics);
+  const auto platform = config::choose_platform(machine_file, overrides, {"imogene", "quadratic"}, diagnostics);
+  if (!schema || !platform) return;
+  if (*platform == "quadratic") content.machine = quadratic::Machine{};
+  Diagnostics found;
+  std::visit(
+      [&](auto& machine) {
+        parameter::Table table = parameter::view(machine);
+        content.machine_origins = config::read(machine_file, table, overrides, found);
+        if (found.empty() && complete) machine.check(found, file);
+      },
+      content.machine);
+  for (const Diagnostic& diagnostic : found.list()) diagnostics.add(located(diagnostic, content.machine_origins, file));
+}
+
+void InputFiles::read_scene(const std::vector<config::Override>& overrides, Inputs::Content& content,
+                            Diagnostics& diagnostics) {
+  const MadeScene* made = made_scene(content.scene_file, overrides, diagnostics);
+  if (made == nullptr) return;
+  content.description = made->description;
+  content.scene_origins = made->origins;
+  content.scene = made->scene;
+}
+
+const InputFiles::MadeScene* InputFiles::made_scene(const std::string& file,
+                                                    const std::vector<config::Override>& overrides,
+                                                    Diagnostics& diagnostics) {
+  std::string key = file;
+  for (const config::Override& override : overrides) key += fmt::format("\n{}={}", override.path, override.text);
+  if (const auto known = scenes_.find(key); known != scenes_.end()) return &known->second;
+  const config::Document& scene_file = document(file);
+  if (!config::check_schema(scene_file, kSchema, diagnostics)) return nullptr;
+  MadeScene made;
+  parameter::Table table = parameter::view(made.description);
+  Diagnostics found;
+  made.origins = config::read(scene_file, table, overrides, found);
+  for (const Diagnostic& diagnostic : found.list()) diagnostics.add(diagnostic);
+  if (!found.empty()) return nullptr;
+  try {
+    made.scene = std::make_shared<const scene::Scene>(
+        scene::build_scene(made.description, file, std::filesystem::path(file).parent_path().string()));
+  } catch (const InputError& error) {
+    for (const Diagnostic& diagnostic : error.diagnostics()) diagnostics.add(located(diagnostic, made.origins, file));
+    return nullptr;
+  }
+  if (scenes_.size() >= kMostScenes) scenes_.clear();
+  return &(scenes_[key] = std::move(made));
 }
 
 InputError Inputs::Content::located(const InputError& error) const {
@@ -113,6 +164,17 @@ const imogene::Machine& Inputs::Content::object_machine(const std::string& comma
   if (const auto* known = std::get_if<imogene::Machine>(&machine)) return *known;
   throw InputError({machine_file, 0, "platform", command + " knows the object machine alone: \"imogene\""});
 }
+
+std::string config_digest(const Inputs& inputs) {
+  return std::visit(
+      [&](auto& machine) {
+        parameter::Table table = parameter::view(machine);
+        return config::digest(table);
+      },
+      inputs.content->machine);
+}
+
+std::string scene_digest(const Inputs& inputs) { return inputs.content->scene->digest; }
 
 std::string resolved_machine_toml(const Inputs& inputs) {
   return std::visit(

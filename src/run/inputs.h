@@ -1,6 +1,7 @@
 // What simulate() works on: the machine and the scene, with what is needed to write them down again.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 
@@ -13,6 +14,9 @@
 
 namespace rastertlm::run {
 
+// Whether --set means the scene by that path. Where both files might have it, the machine does.
+bool names_scene(const std::string& path);
+
 struct Inputs::Content {
   std::string machine_file;
   std::string scene_file;
@@ -20,7 +24,7 @@ struct Inputs::Content {
   config::Origins machine_origins;
   scene::SceneDescription description;
   config::Origins scene_origins;
-  scene::Scene scene;
+  std::shared_ptr<const scene::Scene> scene;  // that simulations of the same scene share
 
   // Throws InputError where the machine file names another platform; `command` is what the program was asked for.
   const imogene::Machine& object_machine(const std::string& command) const;

@@ -10,9 +10,9 @@
 #include "src/config/writer.h"
 #include "src/parameter/table.h"
 #include "src/reference/metrics.h"
-#include "src/reference/renderer.h"
 #include "src/reference/sphere_renderer.h"
 #include "src/run/drawing_limits.h"
+#include "src/run/exact_pictures.h"
 #include "src/run/host_figures.h"
 #include "src/run/inputs.h"
 #include "src/run/quadratic_budgets.h"
@@ -63,42 +63,39 @@ FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown
   return f;
 }
 
-class ExactPictures {
+// The exact pictures of the pose that is shown, under the names that the report has them by.
+class Exact {
  public:
-  // A machine that takes what lights see from the surface has the true model for its own.
-  ExactPictures(const quadratic::Machine& machine, const scene::Scene& scene)
-      : scene_(scene), perspective_(machine.set_up.attributes == set_up::Attributes::perspective) {
-    options_.columns = machine.viewport().columns;
-    options_.lines = machine.viewport().lines;
-    options_.grids = host::span_grids(machine.viewport(), static_cast<int>(machine.set_up.snap_bits));
-    options_.lights_at_points = true;
-  }
-  std::vector<reference::ErrorFigures> errors(const scene::Pose& pose, const frame::Frame& shown) {
+  Exact(const quadratic::Machine& machine, const scene::Scene& scene, ExactStore* store)
+      : scene_(scene), source_(scene, store), options_(exact_options(machine)) {}
+  std::vector<reference::ErrorFigures> errors(const scene::Pose& pose, std::int64_t animation_frame,
+                                              const frame::Frame& shown) {
     std::vector<reference::ErrorFigures> errors;
-    for (auto& [kind, picture] : pictures_) {
-      options_.kind = perspective_ ? reference::Reference::true_model : kind;
-      picture = reference::render(scene_, pose, options_);
-      errors.push_back(reference::compare(shown, picture, reference::to_string(kind)));
+    for (std::size_t i = 0; i < kKinds.size(); ++i) {
+      pictures_[i] = source_.render(pose, animation_frame, options_.at(i));
+      errors.push_back(reference::compare(shown, pictures_[i], reference::to_string(kKinds[i])));
     }
-    if (reference::is_of_spheres(scene_)) errors.push_back(sphere_errors(pose, shown));
+    if (reference::is_of_spheres(scene_)) errors.push_back(sphere_errors(pose, animation_frame, shown));
     return errors;
   }
-  const frame::ExactFrame& ideal() const { return pictures_[0].second; }
+  const frame::ExactFrame& ideal() const { return pictures_[0]; }
 
  private:
+  static constexpr std::array<reference::Reference, 2> kKinds{reference::Reference::ideal,
+                                                              reference::Reference::true_model};
   // Pixels that both show are of the same thing: a sphere has no triangles to tell apart.
-  reference::ErrorFigures sphere_errors(const scene::Pose& pose, const frame::Frame& shown) const {
-    frame::ExactFrame picture = reference::render_spheres(scene_, pose, options_.columns, options_.lines);
+  reference::ErrorFigures sphere_errors(const scene::Pose& pose, std::int64_t animation_frame,
+                                        const frame::Frame& shown) const {
+    frame::ExactFrame picture = source_.render_spheres(pose, animation_frame, options_[0].columns, options_[0].lines);
     for (std::size_t pixel = 0; pixel < picture.pixels(); ++pixel)
       if (picture.object[pixel] != 0 && shown.object[pixel] != 0) picture.object[pixel] = shown.object[pixel];
     return reference::compare(shown, picture, "sphere");
   }
 
   const scene::Scene& scene_;
-  bool perspective_;
-  reference::RenderOptions options_;
-  std::array<std::pair<reference::Reference, frame::ExactFrame>, 2> pictures_{
-      {{reference::Reference::ideal, {}}, {reference::Reference::true_model, {}}}};
+  ExactPictures source_;
+  std::vector<reference::RenderOptions> options_;
+  std::array<frame::ExactFrame, 2> pictures_;
 };
 
 Modelled modelled_figures(const quadratic::Quadratic& platform, const scene::Scene& scene) {
@@ -118,16 +115,16 @@ Modelled modelled_figures(const quadratic::Quadratic& platform, const scene::Sce
 
 Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& inputs, const Options& options,
                           const FrameSink& sink) {
-  const scene::Scene& scene = inputs.content->scene;
+  const scene::Scene& scene = *inputs.content->scene;
   const auto start = std::chrono::steady_clock::now();
   std::chrono::steady_clock::duration outside{};  // spent in references and sinks, which is not the simulation's
   Result result;
-  ExactPictures exact(machine, scene);
+  Exact exact(machine, scene, options.exact);
   const auto show = [&](const quadratic::ShownFrame& shown, const frame::Frame& pixels) {
     if (result.frames.size() >= options.frames) return;
     const auto entered = std::chrono::steady_clock::now();
     FrameFigures figures = figures_of(result.frames.size(), shown, pixels, static_cast<int>(machine.set_up.snap_bits));
-    if (options.reference) figures.errors = exact.errors(shown.set_up.pose, pixels);
+    if (options.reference) figures.errors = exact.errors(shown.set_up.pose, shown.set_up.animation_frame, pixels);
     if (sink) sink({pixels, options.reference ? &exact.ideal() : nullptr, figures});
     result.frames.push_back(std::move(figures));
     outside += std::chrono::steady_clock::now() - entered;
@@ -141,9 +138,7 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
     throw inputs.content->located(error);
   }
   result.platform = "quadratic";
-  quadratic::Machine resolved = machine;
-  parameter::Table table = parameter::view(resolved);
-  result.config_digest = config::digest(table);
+  result.config_digest = config_digest(inputs);
   result.scene_digest = scene.digest;
   result.frame_count = options.frames;
   result.simulated_frames = frames;

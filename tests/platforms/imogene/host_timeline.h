@@ -107,7 +107,7 @@ inline Schedule timeline(const UpdateWork& work, const Parents& parents) {
 // The computation units' arithmetic, without the machine around it: what it counts.
 class Units {
  public:
-  explicit Units(const run::Inputs& inputs) : scene_(inputs.content->scene) {
+  explicit Units(const run::Inputs& inputs) : scene_(*inputs.content->scene) {
     const imogene::Machine& machine = inputs.content->object_machine("this test");
     const auto columns = static_cast<std::size_t>(machine.video.columns);
     const auto lines = static_cast<std::size_t>(machine.video.lines);

@@ -20,7 +20,7 @@ struct Update {
 // What the machine's units did: one list a unit.
 std::vector<std::vector<Update>> updates_of(const run::Inputs& inputs, std::uint64_t frames) {
   const std::string text = in_child([&] {
-    imogene::Imogene platform(inputs.content->object_machine("this test"), inputs.content->scene, {frames, false}, {});
+    imogene::Imogene platform(inputs.content->object_machine("this test"), *inputs.content->scene, {frames, false}, {});
     platform.run();
     std::ostringstream out;
     for (const auto& unit : platform.computation_units()) {

@@ -207,7 +207,7 @@ Described budgets_with(std::vector<std::string> settings) {
   const std::string text = in_child([&] {
     const run::Inputs inputs = sphere_inputs("168", settings);
     const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
-    quadratic::Quadratic platform(machine, inputs.content->scene, {3, false}, {});
+    quadratic::Quadratic platform(machine, *inputs.content->scene, {3, false}, {});
     platform.run();
     std::ostringstream out;
     out.precision(17);

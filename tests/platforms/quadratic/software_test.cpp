@@ -23,7 +23,7 @@ double paper_ms(ShadingMethod method) {
   const run::Inputs inputs = sphere_inputs("168", {});
   const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
   EXPECT_EQ(machine.software.preset, "pc_2000");
-  return 1e3 * host::software_seconds(machine.software, work_of(machine, inputs.content->scene, method));
+  return 1e3 * host::software_seconds(machine.software, work_of(machine, *inputs.content->scene, method));
 }
 
 // 000/001, section 6, on the coarse sphere: 230, 250 and 450 ms. The first and the last are fitted, the other one is

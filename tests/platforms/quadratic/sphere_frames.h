@@ -26,7 +26,7 @@ inline void visit_spans(
     const run::Inputs& inputs,
     const std::function<void(const set_up::ColourTriangle&, const span_unit::Span&, const SpanPixels&)>& visit) {
   const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
-  const scene::Scene& scene = inputs.content->scene;
+  const scene::Scene& scene = *inputs.content->scene;
   host::ResidentScene resident;
   for (const scene::Object& object : scene.objects) resident.objects.push_back({&object.mesh, false, false});
   std::vector<geometry::Reflectance> surfaces;

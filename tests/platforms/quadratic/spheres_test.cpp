@@ -60,7 +60,7 @@ std::vector<glm::dvec3> interpolated(const run::Inputs& inputs, std::vector<std:
 
 Distance distance(const run::Inputs& inputs) {
   const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
-  const scene::Scene& scene = inputs.content->scene;
+  const scene::Scene& scene = *inputs.content->scene;
   const scene::Pose pose = scene::pose(scene, 0, machine.viewport().columns, machine.viewport().lines);
   reference::RenderOptions options;
   options.columns = machine.viewport().columns;

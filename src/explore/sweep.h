@@ -1,0 +1,77 @@
+// A sweep: which points of the space of machines and scenes to simulate, and what of their reports counts.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/config/overrides.h"
+#include "src/explore/sweep_table.h"
+
+namespace rastertlm::explore {
+
+// What one value of an axis means.
+struct Choice {
+  std::string text;                    // as the reader knows it
+  std::vector<config::Override> sets;  // parameters and their values
+  std::string file;                    // of an axis of machines or scenes: the file
+};
+
+// A range without steps, from which random designs draw.
+struct Span {
+  double from = 0.0;
+  double to = 0.0;
+  bool logarithmic = false;
+  bool integer = false;
+};
+
+struct Vary {
+  enum class What { parameter, machine, scene };
+  What what = What::parameter;
+  std::string path;  // of the parameter, or the name of a group of them; "machine", "scene"
+  std::string unit;
+  std::vector<Choice> choices;
+  std::optional<Span> span;          // then a design makes the choices
+  std::optional<std::size_t> start;  // the choice of the baseline
+};
+
+enum class Comparison { less, at_most, equal, not_equal, at_least, greater };
+
+struct Constraint {
+  std::string text;  // as it was written
+  std::string path;  // of a figure
+  Comparison comparison = Comparison::equal;
+  double value = 0.0;
+};
+
+// Whether a figure meets it; one that is missing does not.
+bool meets(const Constraint& constraint, const std::optional<double>& figure);
+
+enum class Mode { grid, one_at_a_time, random, latin_hypercube };
+
+struct Sweep {
+  std::string file;
+  std::string name;
+  std::string question;
+  std::vector<std::string> machines;   // files
+  std::vector<std::string> scenes;     // files
+  std::vector<config::Override> sets;  // of every point
+  Mode mode = Mode::grid;
+  std::uint64_t points = 0;  // of random designs
+  std::uint64_t seed = 1;
+  std::uint64_t frames = 1;  // displayed frames of every point
+  bool reference = true;
+  bool thumbnails = true;
+  std::vector<Vary> axes;
+  std::vector<Objective> objectives;
+  std::vector<bool> optional;  // an objective each: a machine may have no such figure
+  std::vector<Constraint> constraints;
+  bool baseline = false;  // every axis has a start, and the point of all of them belongs to the sweep
+};
+
+// Reads and checks a sweep file with the machines and scenes that it names. Throws InputError with everything that is
+// wrong in them.
+Sweep read_sweep(const std::string& file);
+
+}  // namespace rastertlm::explore

@@ -1,0 +1,233 @@
+#include "src/explore/worker.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+
+#include "src/base/errors.h"
+#include "src/explore/thumbnail.h"
+#include "src/report/figure_path.h"
+#include "src/report/json_report.h"
+
+namespace rastertlm::explore {
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{1} << 16;
+constexpr std::size_t kMostPrinted = 400;  // bytes of its last words that are kept
+constexpr char kWhole = 'w';               // ends a message that is whole
+
+template <class T>
+void put(std::string& message, const T& number) {
+  message.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+void put(std::string& message, const std::string& text) {
+  put(message, static_cast<std::uint64_t>(text.size()));
+  message += text;
+}
+
+// Both ends are one program on one machine: numbers go as they are.
+class Unpacker {
+ public:
+  explicit Unpacker(const std::string& message) : message_(message) {}
+  template <class T>
+  T number() {
+    T value{};
+    if (message_.size() - at_ < sizeof value) throw std::out_of_range("a worker's message is short");
+    std::memcpy(&value, message_.data() + at_, sizeof value);
+    at_ += sizeof value;
+    return value;
+  }
+  std::string text() {
+    const auto size = number<std::uint64_t>();
+    if (message_.size() - at_ < size) throw std::out_of_range("a worker's message is short");
+    at_ += size;
+    return message_.substr(at_ - size, size);
+  }
+
+ private:
+  const std::string& message_;
+  std::size_t at_ = 0;
+};
+
+std::string packed(const PointResult& result) {
+  std::string message;
+  put(message, static_cast<char>(result.state == State::done ? 1 : 0));
+  put(message, result.error);
+  put(message, result.seconds);
+  put(message, result.report);
+  put(message, result.thumbnail);
+  put(message, result.machine_toml);
+  put(message, result.scene_toml);
+  put(message, static_cast<std::uint64_t>(result.figures.size()));
+  for (const auto& [path, value] : result.figures) {
+    put(message, path);
+    put(message, static_cast<char>(value ? 1 : 0));
+    put(message, value.value_or(0.0));
+  }
+  message += kWhole;
+  return message;
+}
+
+PointResult unpacked(const std::string& message) {
+  Unpacker unpacker(message);
+  PointResult result;
+  result.state = unpacker.number<char>() == 1 ? State::done : State::failed;
+  result.error = unpacker.text();
+  result.seconds = unpacker.number<double>();
+  result.report = unpacker.text();
+  result.thumbnail = unpacker.text();
+  result.machine_toml = unpacker.text();
+  result.scene_toml = unpacker.text();
+  for (auto left = unpacker.number<std::uint64_t>(); left > 0; --left) {
+    const std::string path = unpacker.text();
+    const bool there = unpacker.number<char>() == 1;
+    const auto value = unpacker.number<double>();
+    result.figures.emplace_back(path, there ? std::optional(value) : std::nullopt);
+  }
+  return result;
+}
+
+void simulate(const Work& work, PointResult& result) {
+  std::optional<SharedExactStore> shared;
+  if (work.exact != nullptr) shared.emplace(*work.exact, work.renders);
+  run::Options options;
+  options.frames = work.frames;
+  options.reference = work.reference;
+  options.exact = shared ? &*shared : nullptr;
+  const auto sink = [&](const run::FramePixels& pixels) {
+    if (work.thumbnail && result.thumbnail.empty()) result.thumbnail = thumbnail(pixels.shown);
+  };
+  const auto start = std::chrono::steady_clock::now();
+  const run::Result simulated = run::simulate(work.inputs, options, sink);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string json = report::json_text({simulated, false});
+  const report::Figures figures(json, "report.json");
+  for (const std::string& path : work.figures) result.figures.emplace_back(path, figures.value(path));
+  result.report = compressed(json);
+  result.machine_toml = compressed(run::resolved_machine_toml(work.inputs));
+  if (work.scene_toml) result.scene_toml = compressed(run::resolved_scene_toml(work.inputs));
+}
+
+std::string message_of(const Work& work) {
+  PointResult result;
+  try {
+    simulate(work, result);
+  } catch (const std::bad_alloc&) {
+    result = PointResult{};
+    result.error = "out of memory";
+  } catch (const std::exception& error) {
+    result = PointResult{};
+    result.error = error.what();
+  }
+  if (!result.error.empty()) result.state = State::failed;
+  return packed(result);
+}
+
+void write_all(int descriptor, const std::string& bytes) {
+  std::size_t written = 0;
+  while (written < bytes.size()) {
+    const ssize_t count = ::write(descriptor, bytes.data() + written, bytes.size() - written);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return;
+    written += static_cast<std::size_t>(count);
+  }
+}
+
+// The worker's life. It ends with who forked it; interrupts are for that one, who then ends it.
+[[noreturn]] void live(const Work& work, pid_t parent, int pipe, int printed) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_IGN);
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  if (printed >= 0) {
+    ::dup2(printed, STDOUT_FILENO);
+    ::dup2(printed, STDERR_FILENO);
+  }
+  write_all(pipe, message_of(work));
+  ::_exit(0);
+}
+
+std::string last_words(int descriptor) {
+  const off_t size = descriptor < 0 ? 0 : ::lseek(descriptor, 0, SEEK_END);
+  if (size <= 0) return {};
+  std::string text(std::min<std::size_t>(static_cast<std::size_t>(size), kMostPrinted), '\0');
+  const ssize_t count = ::pread(descriptor, text.data(), text.size(), size - static_cast<off_t>(text.size()));
+  text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+Worker::Worker(const Work& work) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    throw OutputError(fmt::format("no pipe for a worker: {}", std::strerror(errno)));
+  printed_ = ::memfd_create("rastertlm_worker", MFD_CLOEXEC);
+  const pid_t parent = ::getpid();
+  process_ = ::fork();
+  if (process_ == 0) live(work, parent, ends[1], printed_);
+  const int error = errno;
+  ::close(ends[1]);
+  pipe_ = ends[0];
+  if (process_ > 0) return;
+  ::close(pipe_);
+  if (printed_ >= 0) ::close(printed_);
+  throw OutputError(fmt::format("no process for a worker: {}", std::strerror(error)));
+}
+
+Worker::~Worker() {
+  if (process_ > 0) {
+    ::kill(process_, SIGKILL);
+    ::waitpid(process_, nullptr, 0);
+  }
+  ::close(pipe_);
+  if (printed_ >= 0) ::close(printed_);
+}
+
+bool Worker::read() {
+  std::array<char, kPiece> piece;
+  const ssize_t count = ::read(pipe_, piece.data(), piece.size());
+  if (count < 0) return errno != EINTR && errno != EAGAIN;
+  received_.append(piece.data(), static_cast<std::size_t>(count));
+  return count == 0;
+}
+
+PointResult Worker::result() {
+  int status = 0;
+  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  const bool whole = !received_.empty() && received_.back() == kWhole && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (whole) return unpacked(received_);
+  PointResult failed;
+  failed.state = State::failed;
+  failed.error = ending(status);
+  return failed;
+}
+
+std::string Worker::ending(int status) const {
+  std::string text =
+      WIFSIGNALED(status)
+          ? fmt::format("the simulation was ended by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))
+          : fmt::format("the simulation ended early, with exit code {}", WEXITSTATUS(status));
+  const std::string printed = last_words(printed_);
+  return printed.empty() ? text : text + "; it printed: " + printed;
+}
+
+}  // namespace rastertlm::explore

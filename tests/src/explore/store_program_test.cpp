@@ -1,0 +1,219 @@
+// Stores as the program makes them: run, killed, resumed, joined, spoiled.
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "tests/src/explore/explore_program.h"
+
+namespace rastertlm::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+using StoreTest = ExploreTest;
+
+TEST_F(StoreTest, HasWhatRenderReports) {
+  write("sweep.toml", sweep("[[vary]]\npath = \"decision_unit.topology\"\nvalues = [\"pipeline\", \"tree\"]\n"));
+  const Outcome outcome = run(run_sweep());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());  // quiet: no terminal
+  ASSERT_EQ(
+      run({"render", "machine.toml", "scene.toml", "--set", "decision_unit.topology=pipeline", "--out", "o"}).exit_code,
+      0);
+  explore::Store store(in_work("s.sqlite"), explore::Store::Opening::look);
+  const explore::SweepTable table = store.table();
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_EQ(table.axes.at(0).values, (std::vector<std::string>{"pipeline", "tree"}));
+  const std::string key = store.database().text("SELECT result FROM point WHERE number = 0");
+  EXPECT_TRUE(store.report(std::stoll(key)) == file_text(in_work("o/report.json")));
+  EXPECT_EQ(table.baseline, 1U);  // the machine file's own
+  EXPECT_FALSE(table.rows[0].thumbnail.empty());
+}
+
+TEST_F(StoreTest, ResumedRunsNothingTwiceAndAChangedSweepOnlyWhatIsNew) {
+  write("sweep.toml", grid(3));
+  ASSERT_EQ(run(run_sweep()).exit_code, 0);
+  const StoredResults before = results();
+  ASSERT_EQ(before.size(), 6U);
+  EXPECT_THAT(run(run_sweep({"--resume"})).out, HasSubstr("6 points: 0 simulated, 6 had their result"));
+  write("sweep.toml", grid(5));
+  EXPECT_THAT(run(run_sweep({"--resume"})).out, HasSubstr("10 points: 4 simulated, 6 had their result"));
+  const StoredResults after = results();
+  EXPECT_EQ(after.size(), 10U);
+  for (const auto& [key, result] : before) EXPECT_TRUE(after.at(key) == result);
+  EXPECT_EQ(table().rows.size(), 10U);
+}
+
+TEST_F(StoreTest, JobsAndSharesDoNotMatter) {
+  write("sweep.toml", grid(4));
+  ASSERT_EQ(run(run_sweep({"--jobs", "1"})).exit_code, 0);
+  for (const char* share : {"1/3", "2/3", "3/3"}) {
+    const std::string store = std::string("part") + share[0] + ".sqlite";
+    ASSERT_EQ(run({"explore", "run", "sweep.toml", "--store", store, "--shard", share, "--jobs", "2"}).exit_code, 0);
+  }
+  const Outcome merged = run({"explore", "merge", "joined.sqlite", "part1.sqlite", "part2.sqlite", "part3.sqlite"});
+  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_TRUE(results("joined.sqlite") == results());
+  EXPECT_EQ(run({"explore", "show", "joined.sqlite", "--csv"}).out, run({"explore", "show", "s.sqlite", "--csv"}).out);
+  EXPECT_EQ(names().count("joined.sqlite-wal") + names().count("joined.sqlite.lock"), 0U);
+}
+
+TEST_F(StoreTest, AFailingPointIsKeptAndStopsNothing) {
+  write("sweep.toml", sweep("[[vary]]\npath = \"host.processors_per_unit\"\nvalues = [1, 8]\n"
+                            "[[vary]]\npath = \"object_processor.word_bits\"\nvalues = [8, 24]\n"));
+  const Outcome outcome = run(run_sweep());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const explore::SweepTable table = this->table();
+  ASSERT_EQ(table.rows.size(), 4U);
+  for (const explore::Row& row : table.rows) {
+    const bool narrow = table.axes[1].values[row.values[1]] == "8";
+    EXPECT_EQ(row.state, narrow ? explore::State::failed : explore::State::done) << row.error;
+    EXPECT_EQ(row.error.empty(), !narrow);
+    EXPECT_EQ(row.allowed, !narrow);
+  }
+}
+
+// Killed at random moments, by a signal that nobody can answer.
+TEST_F(StoreTest, KilledAndResumedIsAsIfNeverKilled) {
+  constexpr int kKills = 10;
+  constexpr int kJobs = 2;
+  write("sweep.toml", grid(60));
+  ASSERT_EQ(run({"explore", "run", "sweep.toml", "--store", "whole.sqlite"}).exit_code, 0);
+  std::mt19937 random(20);
+  std::map<std::string, std::string> recorded;
+  const auto rows = [&] {
+    std::map<std::string, std::string> found;
+    explore::Database database(in_work("s.sqlite"), explore::Database::Access::existing);
+    if (database.integer("SELECT count(*) FROM sqlite_master WHERE name = 'result'") == 0) return found;
+    explore::Statement row(database, "SELECT key, session || ' ' || recorded || ' ' || seconds FROM result");
+    while (row.step()) found[row.text(0)] = row.text(1);
+    return found;
+  };
+  for (int kill = 0; kill < kKills; ++kill) {
+    const pid_t child = start(run_sweep({"--resume", "--jobs", std::to_string(kJobs)}));
+    const std::size_t enough = recorded.size() + 1 + random() % 9;
+    ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(in_work("s.sqlite")) && rows().size() >= enough; }));
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 20000));
+    ::kill(child, SIGKILL);
+    EXPECT_EQ(wait_for(child).signal, SIGKILL);
+    const auto now = rows();
+    for (const auto& [key, row] : recorded) EXPECT_EQ(now.at(key), row);  // what was recorded was not run again
+    recorded = now;
+  }
+  ASSERT_LT(recorded.size(), 120U);
+  const Outcome last = run(run_sweep({"--resume"}));
+  EXPECT_EQ(last.exit_code, 0) << last.err;
+  EXPECT_TRUE(results() == results("whole.sqlite"));
+  EXPECT_EQ(run({"explore", "show", "s.sqlite", "--csv"}).out, run({"explore", "show", "whole.sqlite", "--csv"}).out);
+  explore::Database database(in_work("s.sqlite"), explore::Database::Access::existing);
+  EXPECT_EQ(database.integer("SELECT count(*) FROM result"), 120);
+  // Every simulation that was started is recorded, or was at work when its parent was killed.
+  EXPECT_LE(database.integer("SELECT sum(started) FROM session"), 120 + kKills * kJobs);
+  EXPECT_EQ(database.text("PRAGMA integrity_check"), "ok");
+}
+
+TEST_F(StoreTest, AnInterruptLeavesWhatWasRecorded) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    write("sweep.toml", grid(150));
+    const pid_t child = start(run_sweep({"--resume"}));
+    ASSERT_TRUE(wait_until([&] {
+      return std::filesystem::exists(in_work("s.sqlite")) && std::filesystem::file_size(in_work("s.sqlite")) > 0 &&
+             !results().empty();
+    }));
+    ::kill(child, signal);
+    const Outcome outcome = wait_for(child);
+    EXPECT_EQ(outcome.exit_code, 128 + signal);
+    EXPECT_THAT(outcome.err, HasSubstr("--resume goes on"));
+    EXPECT_EQ(names().count("s.sqlite.lock"), 0U);
+    EXPECT_GT(results().size(), 0U);
+    std::filesystem::remove(in_work("s.sqlite"));
+  }
+}
+
+TEST_F(StoreTest, TwoExplorersOnOneStore) {
+  write("sweep.toml", grid(150));
+  const pid_t child = start(run_sweep());
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(in_work("s.sqlite")) && !results().empty(); }));
+  write("other.toml", grid(2));
+  std::rename(in_folder("stderr").c_str(), in_folder("first").c_str());
+  const Outcome second = run({"explore", "run", "other.toml", "--store", "s.sqlite", "--resume"});
+  EXPECT_EQ(second.exit_code, 2);
+  EXPECT_THAT(second.err, HasSubstr("another explorer is at work on this store (process " + std::to_string(child)));
+  ::kill(child, SIGKILL);
+  wait_for(child);
+  EXPECT_EQ(run({"explore", "run", "other.toml", "--store", "s.sqlite", "--resume"}).exit_code, 0);
+}
+
+TEST_F(StoreTest, FullDisk) {
+  write("sweep.toml", grid(60));
+  constexpr rlim_t kRoom = 400'000;
+  const Outcome full = run(run_sweep(), kRoom);
+  EXPECT_EQ(full.exit_code, 4);
+  EXPECT_THAT(full.err, HasSubstr("cannot write the store s.sqlite"));
+  const StoredResults kept = results();
+  EXPECT_FALSE(kept.empty());
+  ASSERT_EQ(run(run_sweep({"--resume"})).exit_code, 0);
+  const StoredResults all = results();
+  EXPECT_EQ(all.size(), 120U);
+  for (const auto& [key, result] : kept) EXPECT_TRUE(all.at(key) == result);
+}
+
+TEST_F(StoreTest, WhatIsNoStoreOfThisProgram) {
+  write("sweep.toml", grid(1));
+  const auto refused = [&](const std::string& file, const std::string& why) {
+    const std::string before = file_text(in_work(file));
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"explore", "run", "sweep.toml", "--store", file, "--resume"},
+          std::vector<std::string>{"explore", "show", file}}) {
+      const Outcome outcome = run(arguments);
+      EXPECT_EQ(outcome.exit_code, 2) << arguments[1] << outcome.err;
+      EXPECT_THAT(outcome.err, HasSubstr(why)) << arguments[1];
+    }
+    EXPECT_TRUE(file_text(in_work(file)) == before);
+  };
+  write("text.sqlite", std::string(5000, 'x'));
+  refused("text.sqlite", "is not a store of rastertlm");
+  explore::Database(in_work("other.sqlite"), explore::Database::Access::create).execute("CREATE TABLE mine(a)");
+  refused("other.sqlite", "is a database, but no store of rastertlm");
+  ASSERT_EQ(run(run_sweep()).exit_code, 0);
+  explore::Database(in_work("s.sqlite"), explore::Database::Access::existing)
+      .execute("PRAGMA journal_mode = DELETE; PRAGMA user_version = 7");
+  refused("s.sqlite", "the store is of schema 7, and this program reads 1");
+  EXPECT_THAT(run({"explore", "show", "none.sqlite"}).err, HasSubstr("no such store"));
+}
+
+TEST_F(StoreTest, ADamagedStoreIsRefusedAndLeftAsItIs) {
+  write("sweep.toml", grid(20));
+  ASSERT_EQ(run(run_sweep()).exit_code, 0);
+  {
+    explore::Database database(in_work("s.sqlite"), explore::Database::Access::existing);
+    database.text("PRAGMA journal_mode = DELETE");
+  }
+  std::string bytes = file_text(in_work("s.sqlite"));
+  for (std::size_t at = 8192; at < bytes.size(); at += 7) bytes[at] = '\x5a';
+  write("s.sqlite", bytes);
+  const Outcome outcome = run(run_sweep({"--resume"}));
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("the store is damaged"));
+  EXPECT_EQ(run({"explore", "show", "s.sqlite"}).exit_code, 2);
+  EXPECT_TRUE(file_text(in_work("s.sqlite")) == bytes);
+}
+
+TEST_F(StoreTest, MergeRefusesStoresOfOtherSweepsAndAnOutThatIsThere) {
+  write("sweep.toml", grid(1));
+  ASSERT_EQ(run(run_sweep()).exit_code, 0);
+  write("other.toml", grid(2));
+  ASSERT_EQ(run({"explore", "run", "other.toml", "--store", "o.sqlite"}).exit_code, 0);
+  const Outcome other = run({"explore", "merge", "joined.sqlite", "s.sqlite", "o.sqlite"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("o.sqlite: is of another sweep than s.sqlite"));
+  EXPECT_EQ(run({"explore", "merge", "s.sqlite", "o.sqlite"}).exit_code, 2);
+  EXPECT_EQ(run({"explore", "merge", "joined.sqlite", "none.sqlite"}).exit_code, 2);
+  EXPECT_EQ(names().count("joined.sqlite"), 0U);
+  EXPECT_THAT(run({"explore", "run", "sweep.toml", "--store", "s.sqlite"}).err,
+              HasSubstr("is there already: --resume"));
+}
+
+}  // namespace
+}  // namespace rastertlm::test
