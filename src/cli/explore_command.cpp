@@ -13,6 +13,8 @@
 #include "src/explore/runner.h"
 #include "src/explore/store.h"
 #include "src/explore/sweep.h"
+#include "src/explore/sweep_csv.h"
+#include "src/explore/sweep_text.h"
 #include "src/explore/table_text.h"
 #include "src/report/number_text.h"
 
@@ -95,9 +97,22 @@ void ExploreCommand::declare_merge(CLI::App& app) {
 
 void ExploreCommand::declare_show(CLI::App& app) {
   app.add_option("STORE", store_, "store")->required();
-  app.add_flag("--csv", csv_, "every point as a line of CSV");
-  validated(app.add_option("--rows", rows_, "points that are listed")->capture_default_str()->type_name("N"),
+  auto* point = app.add_option("--point", point_,
+                               "from which one parameter is moved one step (default: the baseline, else the answer)");
+  validated(point->type_name("N"), frame_number);
+  auto* tolerance =
+      app.add_option("--tolerance", tolerance_, "part by which a figure may be worse and count as no worse");
+  tolerance->capture_default_str()->type_name("FRACTION")->check(CLI::Range(0.0, 1.0));
+  validated(app.add_option("--rows", rows_, "rows of a table at most")->capture_default_str()->type_name("N"),
             whole_from_one);
+  std::vector<CLI::Option*> forms{
+      app.add_flag("--list", list_, "the points in their order instead"),
+      app.add_flag("--csv", csv_, "the points as CSV, with the front and what it beats"),
+      app.add_flag("--csv-sensitivity", csv_sensitivity_, "how parameters move the objectives, as CSV"),
+      app.add_flag("--csv-steps", csv_steps_, "single steps from --point, as CSV")};
+  for (CLI::Option* form : forms)
+    for (CLI::Option* other : forms)
+      if (form != other) form->excludes(other);
 }
 
 ExitCode ExploreCommand::run() {
@@ -142,10 +157,35 @@ ExitCode ExploreCommand::merge() {
   return ExitCode::kDone;
 }
 
+// The row of --point; none where it was not given.
+std::optional<std::size_t> ExploreCommand::chosen_row(const explore::SweepTable& table) const {
+  if (!point_) return {};
+  const auto found = std::ranges::find_if(table.rows, [&](const explore::Row& row) { return row.number == *point_; });
+  if (found == table.rows.end())
+    throw InputError(Diagnostic{
+        store_, 0, "--point",
+        fmt::format("{} is no point of the sweep, which has {}", *point_, report::grouped(table.rows.size()))});
+  if (found->state != explore::State::done)
+    throw InputError(Diagnostic{store_, 0, "--point",
+                                fmt::format("point {} {}, so it has no figures", *point_,
+                                            found->state == explore::State::failed ? "failed" : "has not run yet")});
+  return static_cast<std::size_t>(found - table.rows.begin());
+}
+
+std::string ExploreCommand::shown(const explore::SweepTable& table) const {
+  const std::optional<std::size_t> from = chosen_row(table);
+  if (list_) return explore::table_text(table, rows_);
+  if (csv_sensitivity_) return explore::sensitivity_csv(table, explore::find_sensitivity(table));
+  if (csv_) return explore::table_csv(table, explore::find_front(table));
+  if (!csv_steps_) return explore::sweep_text(table, {from, tolerance_, rows_});
+  const std::optional<std::size_t> start = explore::start_of_steps(table, explore::find_front(table), from);
+  if (!start) throw InputError(Diagnostic{store_, 0, "", "no point is done, so there is none to step from"});
+  return explore::what_if_csv(table, explore::find_what_if(table, *start, tolerance_));
+}
+
 ExitCode ExploreCommand::show() {
   const explore::SweepTable table = explore::Store(store_, explore::Store::Opening::look).table();
-  const std::string text = csv_ ? explore::table_csv(table) : explore::table_text(table, rows_);
-  std::fputs(text.c_str(), stdout);
+  std::fputs(shown(table).c_str(), stdout);
   return ExitCode::kDone;
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/cli/command.h"
+#include "src/explore/sweep_table.h"
 
 namespace rastertlm::cli {
 
@@ -23,6 +25,8 @@ class ExploreCommand : public Command {
   ExitCode run_sweep();
   ExitCode merge();
   ExitCode show();
+  std::optional<std::size_t> chosen_row(const explore::SweepTable& table) const;
+  std::string shown(const explore::SweepTable& table) const;
   std::string store_of(const std::string& sweep_name) const;
 
   const CLI::App* app_ = nullptr;
@@ -35,6 +39,11 @@ class ExploreCommand : public Command {
   bool yes_ = false;
   std::vector<std::string> parts_;
   bool csv_ = false;
+  bool csv_sensitivity_ = false;
+  bool csv_steps_ = false;
+  bool list_ = false;
+  std::optional<std::uint64_t> point_;
+  double tolerance_ = 0.0;
   std::size_t rows_ = 40;
 };
 

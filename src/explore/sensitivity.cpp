@@ -61,7 +61,7 @@ Used used_points(const SweepTable& table, std::size_t objective, ObjectiveSensit
   return used;
 }
 
-Design design_of(const SweepTable& table, const Used& used) {
+DesignKind design_of(const SweepTable& table, const Used& used) {
   if (table.baseline) {
     const auto& base = table.rows.at(*table.baseline).values;
     const bool one = std::ranges::all_of(used.rows, [&](const Row* row) {
@@ -69,16 +69,16 @@ Design design_of(const SweepTable& table, const Used& used) {
       for (std::size_t a = 0; a < base.size(); ++a) differ += row->values[a] != base[a] ? 1 : 0;
       return differ <= 1;
     });
-    if (one) return Design::one_at_a_time;
+    if (one) return DesignKind::one_at_a_time;
   }
   std::size_t combinations = 1;
   for (const auto& points : used.points) {
     combinations *= occurring(points);
-    if (combinations > used.rows.size()) return Design::scattered;
+    if (combinations > used.rows.size()) return DesignKind::scattered;
   }
   std::set<std::vector<std::size_t>> seen;
   for (const Row* row : used.rows) seen.insert(row->values);
-  return seen.size() == combinations && used.rows.size() == combinations ? Design::grid : Design::scattered;
+  return seen.size() == combinations && used.rows.size() == combinations ? DesignKind::grid : DesignKind::scattered;
 }
 
 // Chooses which axes are lines, and numbers the unknowns; number 0 is the mean.

@@ -26,7 +26,7 @@ namespace rastertlm::explore {
 
 inline constexpr std::size_t kMostUnknowns = 512;
 
-enum class Design {
+enum class DesignKind {
   grid,           // every combination of the values that occur, once
   one_at_a_time,  // no point differs from the baseline in more than one parameter
   scattered,      // anything else
@@ -54,7 +54,7 @@ struct Sensitivity {
 };
 
 struct ObjectiveSensitivity {
-  Design design = Design::scattered;
+  DesignKind design = DesignKind::scattered;
   std::uint64_t points = 0;    // used
   std::uint64_t unknowns = 0;  // that they determine; as many as points: nothing is left to tell how good the fit is
   std::uint64_t infinite = 0;  // done points whose figure is infinite, left out

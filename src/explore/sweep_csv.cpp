@@ -3,21 +3,10 @@
 #include <fmt/format.h>
 
 #include "src/explore/sweep_words.h"
+#include "src/explore/table_text.h"
 
 namespace rastertlm::explore {
 namespace {
-
-const char* name_of(State state) {
-  switch (state) {
-    case State::done:
-      return "done";
-    case State::failed:
-      return "failed";
-    case State::waiting:
-      break;
-  }
-  return "waiting";
-}
 
 const char* name_of(Effects effects) {
   switch (effects) {
@@ -49,34 +38,16 @@ const char* name_of(MoveState state) {
 
 }  // namespace
 
-std::string front_csv(const SweepTable& table, const Front& front) {
-  std::string text = "point,state,allowed,front,beaten_by";
-  for (const Axis& axis : table.axes) text += ',' + csv_field(axis.path);
-  for (const Objective& objective : table.objectives) text += ',' + csv_field(objective.path);
-  text += ",error\n";
-  for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const Row& row = table.rows[r];
-    text += fmt::format("{},{},{},", row.number, name_of(row.state), row.allowed ? 1 : 0);
-    if (front.compared[r]) text += front.has(r) ? '1' : '0';
-    text += ',';
-    if (front.beaten_by[r]) text += std::to_string(table.rows[*front.beaten_by[r]].number);
-    for (std::size_t a = 0; a < table.axes.size(); ++a) text += ',' + csv_field(table.axes[a].values[row.values[a]]);
-    for (const auto& figure : row.figures) text += ',' + csv_figure(figure);
-    text += ',' + csv_field(row.error) + '\n';
-  }
-  return text;
-}
-
 std::string sensitivity_csv(const SweepTable& table, const std::vector<ObjectiveSensitivity>& sensitivity) {
   std::string text = "objective,unit,parameter,value,points,effects,difference,reference,share\n";
   for (std::size_t o = 0; o < sensitivity.size(); ++o) {
     for (const Sensitivity& s : sensitivity[o].axes) {
       const Axis& axis = table.axes[s.axis];
       for (std::size_t v = 0; v < axis.values.size(); ++v)
-        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_field(table.objectives[o].path),
-                            csv_field(table.objectives[o].unit), csv_field(axis.path), csv_field(axis.values[v]),
+        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(table.objectives[o].path),
+                            csv_cell(table.objectives[o].unit), csv_cell(axis.path), csv_cell(axis.values[v]),
                             s.points[v], name_of(s.effects), csv_figure(s.differences[v]),
-                            csv_field(axis.values[s.reference]), csv_figure(s.share));
+                            csv_cell(axis.values[s.reference]), csv_figure(s.share));
     }
   }
   return text;
@@ -84,13 +55,13 @@ std::string sensitivity_csv(const SweepTable& table, const std::vector<Objective
 
 std::string what_if_csv(const SweepTable& table, const WhatIf& what_if) {
   std::string text = "parameter,from,to,state,point";
-  for (const Objective& objective : table.objectives) text += ',' + csv_field(objective.path);
+  for (const Objective& objective : table.objectives) text += ',' + csv_cell(objective.path);
   text += '\n';
   const Row& start = table.rows[what_if.from];
   for (const Move& move : what_if.moves) {
     const Axis& axis = table.axes[move.axis];
-    text += fmt::format("{},{},{},{},{}", csv_field(axis.path), csv_field(axis.values[start.values[move.axis]]),
-                        csv_field(axis.values[move.value]), name_of(move.state),
+    text += fmt::format("{},{},{},{},{}", csv_cell(axis.path), csv_cell(axis.values[start.values[move.axis]]),
+                        csv_cell(axis.values[move.value]), name_of(move.state),
                         move.row ? std::to_string(table.rows[*move.row].number) : "");
     for (std::size_t o = 0; o < table.objectives.size(); ++o)
       text += ',' + csv_figure(change_of(move, o, table.objectives[o].sense));

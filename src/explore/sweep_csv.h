@@ -1,19 +1,16 @@
-// A sweep's findings as CSV: a header, then a row each; lines end in '\n', numbers have all their digits, what is
-// missing is empty. Points are called by their numbers.
+// What parameters do, as CSV: a header, then a row each; lines end in '\n', numbers have nine significant digits, what
+// is missing is empty. Points are called by their numbers.
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "src/explore/front.h"
 #include "src/explore/sensitivity.h"
 #include "src/explore/sweep_table.h"
 #include "src/explore/what_if.h"
 
 namespace rastertlm::explore {
 
-// A row a point: point, state (done, failed, waiting), allowed, front (1, 0, or empty where it was not compared),
-// beaten_by, a column an axis and an objective by path, error.
-std::string front_csv(const SweepTable& table, const Front& front);
 // A row an objective, axis and value: objective, unit, parameter, value, points, effects (by_value, by_line,
 // undetermined), difference (from the reference), reference, share (of the figure's variance, of the axis).
 std::string sensitivity_csv(const SweepTable& table, const std::vector<ObjectiveSensitivity>& sensitivity);

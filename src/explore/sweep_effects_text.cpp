@@ -27,13 +27,13 @@ std::string value_text(const SweepTable& table, std::size_t axis, std::size_t va
 std::string estimator_sentence(const ObjectiveSensitivity& s) {
   std::string text;
   switch (s.design) {
-    case Design::grid:
+    case DesignKind::grid:
       text = fmt::format("differences of means over all other parameters ({} points, a full grid)", grouped(s.points));
       break;
-    case Design::one_at_a_time:
+    case DesignKind::one_at_a_time:
       text = fmt::format("differences from the baseline, one parameter at a time ({} points)", grouped(s.points));
       break;
-    case Design::scattered:
+    case DesignKind::scattered:
       text = fmt::format("least-squares fit of {} to {}", counted(s.unknowns, "effect", "independent effects"),
                          counted(s.points, "point", "points"));
       break;
@@ -175,9 +175,8 @@ std::string what_if_section(const SweepTable& table, const WhatIf& what_if, doub
   std::string text = heading(fmt::format("One parameter moved one step from point {}", start.number)) + kIndent +
                      point_text(table, names, start) + ":";
   for (std::size_t o = 0; o < table.objectives.size(); ++o) {
-    const std::string& unit = table.objectives[o].unit;
     text += fmt::format("{} {} {}{}", o == 0 ? "" : ",", names.objectives[o], shown_figure(start.figures[o]),
-                        unit.empty() ? "" : ' ' + in_one_line(unit));
+                        unit_text(table.objectives[o].unit));
   }
   text += '\n';
   const bool any = std::ranges::any_of(what_if.moves, [](const Move& move) { return move.row.has_value(); });

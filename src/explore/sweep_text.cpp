@@ -20,7 +20,7 @@ using report::grouped;
 using report::TextTable;
 
 std::string with_unit(const std::string& figure, const Objective& objective) {
-  return objective.unit.empty() ? figure : figure + ' ' + in_one_line(objective.unit);
+  return figure + unit_text(objective.unit);
 }
 
 // Below 0 where `a` comes before `b` by its figures, in the objectives' order.
@@ -48,7 +48,9 @@ std::vector<std::string> point_cells(const SweepTable& table, const Row& row) {
 }
 
 std::string rest_line(std::size_t shown, std::size_t all) {
-  return shown < all ? fmt::format("{}{} more.\n", kIndent, grouped(all - shown)) : "";
+  return shown < all ? fmt::format("{}{} more; --rows says how many are listed, --csv lists all.\n", kIndent,
+                                   grouped(all - shown))
+                     : "";
 }
 
 std::string constraints_text(const SweepTable& table) {
@@ -87,7 +89,7 @@ std::string difference_text(const SweepTable& table, const Names& names, const R
     if (!own || !before) {
       text += shown_figure(own) + " for " + shown_figure(before);
     } else {
-      text += change_text(*own - *before, before, in_one_line(table.objectives[o].unit));
+      text += change_text(*own - *before, before, table.objectives[o].unit);
     }
   }
   return text.empty() ? "equal in all objectives" : text;
@@ -228,15 +230,19 @@ std::string failures_section(const SweepTable& table, std::size_t most_rows) {
   return heading("Points that failed") + rows.text() + rest_line(shown, order.size());
 }
 
+std::optional<std::size_t> start_of_steps(const SweepTable& table, const Front& front,
+                                          const std::optional<std::size_t>& chosen) {
+  if (chosen) return chosen;
+  if (table.baseline && table.rows.at(*table.baseline).state == State::done) return table.baseline;
+  return answer_row(table, front);
+}
+
 std::string sweep_text(const SweepTable& table, const TextOptions& options) {
   const Front front = find_front(table);
   std::string text = answer_section(table, front) + objectives_section(table, front) +
                      front_section(table, front, options.most_rows) + beaten_section(table, front, options.most_rows) +
                      failures_section(table, options.most_rows) + sensitivity_section(table, find_sensitivity(table));
-  std::optional<std::size_t> from = options.from;
-  // Chosen here, a point that is not done is no error: then there is nothing to tell.
-  if (!from && table.baseline && table.rows.at(*table.baseline).state == State::done) from = table.baseline;
-  if (!from) from = answer_row(table, front);
+  const std::optional<std::size_t> from = start_of_steps(table, front, options.from);
   if (from) text += what_if_section(table, find_what_if(table, *from, options.tolerance), options.tolerance);
   return text;
 }

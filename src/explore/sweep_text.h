@@ -14,14 +14,18 @@
 namespace rastertlm::explore {
 
 struct TextOptions {
-  std::optional<std::size_t> from;  // row from which one step is taken; none: the baseline, or the answer without one
+  std::optional<std::size_t> from;  // start_of_steps' choice
   double tolerance = 0.0;           // find_what_if's
-  std::size_t most_rows = 24;       // of a table; the rest is counted
+  std::size_t most_rows = 40;       // of a table; the rest is counted
 };
 
 // The point that answers the sweep's question: the best in the first objective of those that were compared, of equal
 // ones the best in the second, and so on, then the first. It is on the front. None where no point was compared.
 std::optional<std::size_t> answer_row(const SweepTable& table, const Front& front);
+
+// The row from which a step is taken: `chosen`, else the baseline if it is done, else the answer, where there is one.
+std::optional<std::size_t> start_of_steps(const SweepTable& table, const Front& front,
+                                          const std::optional<std::size_t>& chosen);
 
 // All sections. Throws as find_front, find_sensitivity and find_what_if do.
 std::string sweep_text(const SweepTable& table, const TextOptions& options = {});

@@ -71,6 +71,10 @@ std::string in_one_line(const std::string& text) {
   return line;
 }
 
+std::string unit_text(const std::string& unit) {
+  return unit.empty() || unit == "fraction" ? "" : ' ' + in_one_line(unit);
+}
+
 std::string shown_figure(const std::optional<double>& figure) {
   if (!figure || std::isnan(*figure)) return "-";
   if (std::isinf(*figure)) return *figure > 0.0 ? "infinite" : "-infinite";
@@ -80,7 +84,7 @@ std::string shown_figure(const std::optional<double>& figure) {
 std::string change_text(double change) { return fmt::format("{}{}", change > 0.0 ? "+" : "", shown_figure(change)); }
 
 std::string change_text(double change, const std::optional<double>& before, const std::string& unit) {
-  std::string text = fmt::format("{}{}{}", change_text(change), unit.empty() ? "" : " ", unit);
+  std::string text = change_text(change) + unit_text(unit);
   if (change == 0.0 || !before || *before == 0.0 || !std::isfinite(*before) || !std::isfinite(change)) return text;
   const double part = change / std::abs(*before);
   return fmt::format("{} ({}{})", text, part > 0.0 ? "+" : "", report::percent(part));
@@ -91,26 +95,16 @@ std::string point_text(const SweepTable& table, const Names& names, const Row& r
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     if (a > 0) text += ", ";
     text += names.axes[a] + " = " + in_one_line(table.axes[a].values.at(row.values[a]));
-    if (!table.axes[a].unit.empty()) text += ' ' + table.axes[a].unit;
+    text += unit_text(table.axes[a].unit);
   }
   return text;
 }
 
 const char* wanted_text(Sense sense) { return sense == Sense::minimise ? "least" : "most"; }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 std::string csv_figure(const std::optional<double>& figure) {
   if (!figure || std::isnan(*figure)) return "";
-  return fmt::format("{}", *figure);
+  return fmt::format("{:.9g}", *figure);
 }
 
 }  // namespace rastertlm::explore

@@ -26,6 +26,8 @@ std::string heading(const std::string& title);
 
 // One line, whatever the text holds.
 std::string in_one_line(const std::string& text);
+// " Hz", what stands behind a figure; empty where there is none, and for a fraction.
+std::string unit_text(const std::string& unit);
 // 333,333, 0.5094, infinite; "-" where there is none.
 std::string shown_figure(const std::optional<double>& figure);
 // With its sign: "+20"; "0" for none.
@@ -38,9 +40,7 @@ std::string point_text(const SweepTable& table, const Names& names, const Row& r
 // "least" or "most".
 const char* wanted_text(Sense sense);
 
-// A field of a CSV file (RFC 4180): quoted where it has a comma, a quote or a line's end.
-std::string csv_field(const std::string& text);
-// All digits; empty where there is none.
+// Nine significant digits; empty where there is none.
 std::string csv_figure(const std::optional<double>& figure);
 
 }  // namespace rastertlm::explore

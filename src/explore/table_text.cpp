@@ -104,8 +104,8 @@ std::string table_text(const SweepTable& table, std::size_t most_rows) {
   return text + errors_text(table);
 }
 
-std::string table_csv(const SweepTable& table) {
-  std::string text = "point,state,allowed,baseline";
+std::string table_csv(const SweepTable& table, const Front& front) {
+  std::string text = "point,state,allowed,baseline,front,beaten_by";
   for (const Axis& axis : table.axes) text += ',' + csv_cell(with_unit(axis.path, axis.unit));
   for (const Objective& objective : table.objectives) text += ',' + csv_cell(with_unit(objective.path, objective.unit));
   text += ",config_digest,error\n";
@@ -114,6 +114,8 @@ std::string table_csv(const SweepTable& table) {
     const char* state = row.state == State::done ? "done" : row.state == State::failed ? "failed" : "waiting";
     text += fmt::format("{},{},{},{}", row.number, state, row.allowed ? 1 : 0,
                         table.baseline && *table.baseline == i ? 1 : 0);
+    text += !front.compared[i] ? "," : front.has(i) ? ",1" : ",0";
+    text += front.beaten_by[i] ? fmt::format(",{}", table.rows[*front.beaten_by[i]].number) : std::string(",");
     for (std::size_t axis = 0; axis < table.axes.size(); ++axis)
       text += ',' + csv_cell(table.axes[axis].values.at(row.values.at(axis)));
     for (const std::optional<double>& figure : row.figures)

@@ -45,7 +45,7 @@ RC_GTEST_PROP(Sensitivity, OfAGridIsTheDifferenceOfMeans, ()) {
   std::uniform_real_distribution<double> figure(-1e3, 1e6);
   add_grid(table, [&](const Values&) { return Figures{figure(random)}; });
   const ObjectiveSensitivity found = find_sensitivity(table).at(0);
-  RC_ASSERT(found.design == Design::grid);
+  RC_ASSERT(found.design == DesignKind::grid);
   RC_ASSERT(found.points == table.rows.size());
   double explained = 0.0;
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
@@ -83,7 +83,7 @@ TEST(Sensitivity, OfOneAtATimeIsTheDifferenceFromTheBaseline) {
   add_row(table, {1, 1}, {std::nullopt}, State::failed);
   add_row(table, {1, 3}, {104.0}, State::done, false);  // breaks a constraint: its figure is no less true
   const ObjectiveSensitivity found = find_sensitivity(table).at(0);
-  EXPECT_EQ(found.design, Design::one_at_a_time);
+  EXPECT_EQ(found.design, DesignKind::one_at_a_time);
   EXPECT_EQ(found.points, 5U);
   EXPECT_FALSE(found.unexplained.has_value());
   const auto near = [](const std::optional<double>& a, double b) { return a && std::abs(*a - b) < 1e-9; };
@@ -121,7 +121,7 @@ RC_GTEST_PROP(Sensitivity, OfRandomPointsFindsAdditiveEffects, ()) {
     add_row(table, values, {figure});
   }
   const ObjectiveSensitivity found = find_sensitivity(table).at(0);
-  RC_ASSERT(found.design == Design::scattered);
+  RC_ASSERT(found.design == DesignKind::scattered);
   RC_ASSERT(found.unexplained.value() < 1e-9);
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     const Sensitivity& axis = found.axes[a];

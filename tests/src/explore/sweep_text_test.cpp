@@ -10,6 +10,7 @@
 
 #include "src/explore/sweep_csv.h"
 #include "src/explore/sweep_words.h"
+#include "src/explore/table_text.h"
 #include "tests/src/explore/table_builder.h"
 
 namespace rastertlm::explore {
@@ -101,7 +102,7 @@ TEST(SweepText, ListsTheFrontAndWhatItBeats) {
   EXPECT_TRUE(
       has_line(beaten, "  The baseline (point 4) is beaten by point 5: memories[all].total_bits -500 bits (-5.9 %)."))
       << beaten;
-  EXPECT_TRUE(has_line(front_section(table, front, 1), "  1 more."));
+  EXPECT_TRUE(has_line(front_section(table, front, 1), "  1 more; --rows says how many are listed, --csv lists all."));
 }
 
 TEST(SweepText, OrdersParametersByHowFarTheyMove) {
@@ -162,17 +163,19 @@ RC_GTEST_PROP(SweepCsv, IsReadAgain, ()) {
   table.rows[1].state = State::failed;
   table.rows[1].error = *rc::gen::container<std::string>(rc::gen::element('a', ',', '"', '\n', ' ', ';', '\r'));
   table.axes[1].values[1] = *rc::gen::container<std::string>(rc::gen::element('b', ',', '"', '[', ' '));
-  table.rows[2].figures[0] = *rc::gen::arbitrary<double>();
+  table.rows[2].figures[0] = *rc::gen::inRange(-1'000'000, 1'000'000) / 8.0;
   const Front front = find_front(table);
-  const std::vector<Fields> rows = parsed(front_csv(table, front));
+  const std::vector<Fields> rows = parsed(table_csv(table, front));
   RC_ASSERT(rows.size() == table.rows.size() + 1);
-  RC_ASSERT(rows[0] == (Fields{"point", "state", "allowed", "front", "beaten_by", "host.computation_units",
-                               "decision_unit.topology", "memories[all].total_bits", "answer.frame_rate_hz", "error"}));
+  RC_ASSERT(rows[0] == (Fields{"point", "state", "allowed", "baseline", "front", "beaten_by", "host.computation_units",
+                               "decision_unit.topology", "memories[all].total_bits (bits)", "answer.frame_rate_hz (Hz)",
+                               "config_digest", "error"}));
+  std::ranges::replace(table.rows[1].error, '\n', ' ');
   RC_ASSERT(rows[2].back() == table.rows[1].error);
-  RC_ASSERT(rows[2][6] == table.axes[1].values[1]);
-  RC_ASSERT(std::stod(rows[3][7]) == *table.rows[2].figures[0]);
-  RC_ASSERT(rows[3][3] == (front.has(2) ? "1" : "0"));
-  RC_ASSERT(rows[1][3].empty());
+  RC_ASSERT(rows[2][7] == table.axes[1].values[1]);
+  RC_ASSERT(std::stod(rows[3][8]) == *table.rows[2].figures[0]);
+  RC_ASSERT(rows[3][4] == (front.has(2) ? "1" : "0"));
+  RC_ASSERT(rows[1][4].empty());
   for (const Fields& row : rows) RC_ASSERT(row.size() == rows[0].size());
 }
 

@@ -1,0 +1,69 @@
+// rastertlm explore show on a store that the program made.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "src/explore/front.h"
+#include "src/explore/sweep_text.h"
+#include "tests/src/explore/explore_program.h"
+
+namespace rastertlm::test {
+namespace {
+
+using testing::HasSubstr;
+
+class ShowTest : public ExploreTest {
+ protected:
+  void SetUp() override {
+    ExploreTest::SetUp();
+    write("sweep.toml", grid(3));
+    ASSERT_EQ(run(run_sweep()).exit_code, 0);
+  }
+};
+
+TEST_F(ShowTest, TellsTheFrontAndStepsOfAStore) {
+  const explore::SweepTable found = table();
+  const explore::Front front = explore::find_front(found);
+  const auto answer = explore::answer_row(found, front);
+  ASSERT_TRUE(answer.has_value());
+  const std::string text = run({"explore", "show", "s.sqlite"}).out;
+  EXPECT_THAT(text, HasSubstr(fmt::format("(point {})", found.rows[*answer].number)));
+  EXPECT_THAT(text, HasSubstr(fmt::format("6 points: {} on the front, {} beaten by it.", front.rows.size(),
+                                          found.rows.size() - front.rows.size())));
+  EXPECT_EQ(text, explore::sweep_text(found));
+  EXPECT_THAT(run({"explore", "show", "s.sqlite", "--point", "3"}).out,
+              HasSubstr("One parameter moved one step from point 3"));
+}
+
+TEST_F(ShowTest, WritesTablesForPrograms) {
+  std::istringstream lines(run({"explore", "show", "s.sqlite", "--csv"}).out);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_THAT(line, HasSubstr("point,state,allowed,baseline,front,beaten_by,host.link_mbit_per_s"));
+  std::size_t points = 0;
+  while (std::getline(lines, line)) ++points;
+  EXPECT_EQ(points, 6U);
+  EXPECT_THAT(run({"explore", "show", "s.sqlite", "--csv-sensitivity"}).out,
+              HasSubstr("answer.frame_rate_hz,Hz,host.link_mbit_per_s,6.0,2,by_value,"));
+  // From 6 Mbit/s on a pipeline: 5 and 7, and a tree.
+  const std::string steps = run({"explore", "show", "s.sqlite", "--csv-steps", "--point", "2"}).out;
+  EXPECT_THAT(steps, HasSubstr("\nhost.link_mbit_per_s,6.0,5.0,known,0,"));
+  EXPECT_THAT(steps, HasSubstr("\nhost.link_mbit_per_s,6.0,7.0,known,4,"));
+  EXPECT_THAT(steps, HasSubstr("\ndecision_unit.topology,pipeline,tree,known,3,"));
+}
+
+TEST_F(ShowTest, RefusesPointsThatHaveNoFigures) {
+  const Outcome none = run({"explore", "show", "s.sqlite", "--point", "6"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("s.sqlite: --point: 6 is no point of the sweep, which has 6"));
+  EXPECT_EQ(run({"explore", "show", "s.sqlite", "--tolerance", "-1"}).exit_code, 2);
+  EXPECT_EQ(run({"explore", "show", "s.sqlite", "--csv", "--list"}).exit_code, 2);
+  ASSERT_EQ(run({"explore", "run", "sweep.toml", "--store", "half.sqlite", "--shard", "1/2"}).exit_code, 0);
+  const Outcome waiting = run({"explore", "show", "half.sqlite", "--point", "1"});
+  EXPECT_EQ(waiting.exit_code, 2);
+  EXPECT_THAT(waiting.err, HasSubstr("point 1 has not run yet, so it has no figures"));
+}
+
+}  // namespace
+}  // namespace rastertlm::test
