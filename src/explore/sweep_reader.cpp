@@ -38,8 +38,7 @@ class Checking {
     files();
     if (sweep_.machines.empty() || sweep_.scenes.empty()) return figures();
     if (!bases({}, plain_)) return figures();
-    sets();
-    if (diagnostics_.empty() && bases(sweep_.sets, bases_)) {
+    if (sets() && bases(sweep_.sets, bases_)) {
       file_axes();
       for (std::size_t i = 0; i < file_.vary.size(); ++i) axis(i);
       no_key_twice();
@@ -88,12 +87,14 @@ class Checking {
     return first;
   }
 
-  void sets() {
+  bool sets() {
+    const std::size_t before = diagnostics_.list().size();
     for (const Setting& setting : file_.sets) {
       const Settable::Checked result = checked(plain_, setting.path, &setting.value);
       if (!result.mistake.empty()) add(setting.line, "set." + setting.path, result.mistake);
       sweep_.sets.push_back(run::override_of(setting.path, setting.value));
     }
+    return diagnostics_.list().size() == before;
   }
 
   void file_axes() {
@@ -255,7 +256,7 @@ class Checking {
   // Designs but the grid may begin from a value that is not among the others.
   void start_at(Vary& axis, const Setting& setting) {
     const auto* name = std::get_if<std::string>(&setting.value.value);
-    const bool named = axis.what != Vary::What::parameter || axis.choices.empty() || !is_single(axis);
+    const bool named = axis.what != Vary::What::parameter || !is_single(axis);
     std::string text = name == nullptr ? config::found(setting.value) : *name;
     if (!named) {
       const Settable::Checked result = checked(bases_, axis.path, &setting.value);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -17,7 +18,6 @@
 #include "src/base/errors.h"
 #include "src/explore/thumbnail.h"
 #include "src/report/figure_path.h"
-#include "src/report/json_report.h"
 
 namespace rastertlm::explore {
 namespace {
@@ -108,12 +108,11 @@ void simulate(const Work& work, PointResult& result) {
     if (work.thumbnail && result.thumbnail.empty()) result.thumbnail = thumbnail(pixels.shown);
   };
   const auto start = std::chrono::steady_clock::now();
-  const run::Result simulated = run::simulate(work.inputs, options, sink);
+  const report::Contents contents{run::simulate(work.inputs, options, sink), false};
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string json = report::json_text({simulated, false});
-  const report::Figures figures(json, "report.json");
+  const report::Figures figures(contents);
   for (const std::string& path : work.figures) result.figures.emplace_back(path, figures.value(path));
-  result.report = compressed(json);
+  result.report = compressed(figures.json());
   result.machine_toml = compressed(run::resolved_machine_toml(work.inputs));
   if (work.scene_toml) result.scene_toml = compressed(run::resolved_scene_toml(work.inputs));
 }
@@ -143,6 +142,13 @@ void write_all(int descriptor, const std::string& bytes) {
   }
 }
 
+// What is given back to the system must be had again page by page; a worker that is gone soon keeps it.
+void keep_memory() {
+  constexpr int kLarge = 1 << 30;
+  ::mallopt(M_MMAP_THRESHOLD, kLarge);
+  ::mallopt(M_TRIM_THRESHOLD, kLarge);
+}
+
 // The worker's life. It ends with who forked it; interrupts are for that one, who then ends it.
 [[noreturn]] void live(const Work& work, pid_t parent, int pipe, int printed) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -154,6 +160,7 @@ void write_all(int descriptor, const std::string& bytes) {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
+  keep_memory();
   if (printed >= 0) {
     ::dup2(printed, STDOUT_FILENO);
     ::dup2(printed, STDERR_FILENO);

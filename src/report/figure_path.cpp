@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/base/errors.h"
+#include "src/report/json_value.h"
 #include "src/report/statistics.h"
 
 namespace rastertlm::report {
@@ -255,6 +256,10 @@ Figures::Figures(const std::string& json, const std::string& file) : content_(st
   content_->json = Json::parse(json, nullptr, false);
   if (!content_->json.is_object()) throw InputError(Diagnostic{file, 0, "", "is not a report.json of rastertlm"});
 }
+Figures::Figures(const Contents& contents) : content_(std::make_unique<Content>()) {
+  content_->json = json_value(contents);
+}
+std::string Figures::json() const { return text_of_json(content_->json); }
 Figures::Figures(Figures&&) noexcept = default;
 Figures::~Figures() = default;
 

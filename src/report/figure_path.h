@@ -11,6 +11,8 @@
 #include <optional>
 #include <string>
 
+#include "src/report/schema.h"
+
 namespace rastertlm::report {
 
 // What is wrong with a path, known before there is any report: a sentence that names the nearest figure; "" if nothing.
@@ -24,9 +26,12 @@ class Figures {
  public:
   // Throws InputError, naming `file`, where the text is no report.json of this program.
   Figures(const std::string& json, const std::string& file);
+  explicit Figures(const Contents& contents);
   Figures(Figures&&) noexcept;
   ~Figures();
 
+  // The report.json that they are of.
+  std::string json() const;
   // None where the report has no such figure, or null. The path is one without figure_mistake().
   std::optional<double> value(const std::string& path) const;
   // With the unit that stands beside the figure, where its elements name their own.

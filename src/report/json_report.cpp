@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "src/base/errors.h"
+#include "src/report/json_value.h"
 #include "src/report/number_text.h"
 
 namespace rastertlm::report {
@@ -178,13 +179,17 @@ Json parse(const std::string& text) { return Json::parse(text, nullptr, false); 
 
 }  // namespace
 
-std::string json_text(const Contents& contents) {
+Json json_value(const Contents& contents) {
   Contents copy = contents;
   Json json;
   Writer writer(json);
   schema::visit(writer, copy);
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json;
 }
+
+std::string text_of_json(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'; }
+
+std::string json_text(const Contents& contents) { return text_of_json(json_value(contents)); }
 
 Contents read_json(const std::string& text, const std::string& file) {
   const Json json = parse(text);
