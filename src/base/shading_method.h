@@ -16,6 +16,9 @@ enum class ShadingMethod {
   gouraud_phong,
   phong,
   deferred_phong,
+  duff,
+  taylor,
+  angular,
 };
 
 struct ShadingMethodTraits {
@@ -30,7 +33,7 @@ struct ShadingMethodTraits {
   std::string_view source;    // paper
 };
 
-inline constexpr std::array<ShadingMethodTraits, 8> kShadingMethods{{
+inline constexpr std::array<ShadingMethodTraits, 11> kShadingMethods{{
     {ShadingMethod::gouraud, "gouraud", "colour, linear", "3 vertices", false, false, "quadratic, adaptive", "000/001"},
     {ShadingMethod::quadratic, "quadratic", "colour, quadratic", "3 vertices and 3 edge midpoints", false, false,
      "quadratic", "000/001"},
@@ -42,10 +45,26 @@ inline constexpr std::array<ShadingMethodTraits, 8> kShadingMethods{{
      "vertices of the parts, cut at the highlight", true, true, "adaptive", "003, section 3.1"},
     {ShadingMethod::gouraud_phong, "gouraud_phong", "normal where a highlight is, else colour, linear",
      "every pixel of triangles with a highlight, else 3 vertices", true, false, "adaptive", "003, section 3.3"},
-    {ShadingMethod::phong, "phong", "normal, linear", "every pixel", false, false, "reference", "003"},
+    {ShadingMethod::phong, "phong", "normal, linear", "every pixel", false, false, "adaptive", "003"},
     {ShadingMethod::deferred_phong, "deferred_phong", "normal, linear, lit by tables after the nearest is known",
      "every pixel, once", false, false, "imogene", "004, section 5"},
+    {ShadingMethod::duff, "duff", "dot products, linear over the normal's length", "every pixel", false, false,
+     "adaptive", "Duff 1979"},
+    {ShadingMethod::taylor, "taylor", "dot products, quadratic about the triangle's centre", "every pixel", false,
+     false, "adaptive", "Bishop and Weimer 1986"},
+    {ShadingMethod::angular, "angular", "angle of the normal, linear along edges and lines", "every pixel", false,
+     false, "adaptive", "Kuijk and Blake 1989"},
 }};
+
+constexpr const ShadingMethodTraits& traits_of(ShadingMethod method) {
+  return kShadingMethods.at(static_cast<std::size_t>(method));
+}
+
+// The lighting equation is solved at every pixel of every triangle, from what is interpolated: a pixel unit's.
+constexpr bool shades_pixels(ShadingMethod method) {
+  return method == ShadingMethod::phong || method == ShadingMethod::duff || method == ShadingMethod::taylor ||
+         method == ShadingMethod::angular;
+}
 
 // Null where no method has the name.
 constexpr const ShadingMethodTraits* find_shading_method(std::string_view name) {

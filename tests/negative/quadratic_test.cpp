@@ -43,7 +43,7 @@ TEST_F(QuadraticInputTest, DepthThatOverflowsItsRegister) {
           {"span_unit.depth_fraction_bits: ", "more than the 32 of a depth register"});
 }
 TEST_F(QuadraticInputTest, MethodsOfOtherPlatforms) {
-  refused("[set_up]\nmethod = \"phong\"\n", {"machine.toml:7: set_up.method: ", "offered by: reference"});
+  refused("[set_up]\nmethod = \"phong\"\n", {"machine.toml:7: set_up.method: ", "offered by: adaptive"});
   refused("[set_up]\nmethod = \"regular_subdivision\"\n", {"offered by: adaptive"});
 }
 TEST_F(QuadraticInputTest, InterlacedVideoAndAccessTimes) {

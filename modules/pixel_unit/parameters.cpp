@@ -1,0 +1,24 @@
+#include "modules/pixel_unit/parameters.h"
+
+#include <string>
+
+namespace rastertlm::pixel_unit {
+
+using parameter::About;
+
+void PixelUnitParameters::declare(parameter::Table& table) {
+  const std::string rate = "answer.frame_rate_hz, units[] pixel unit";
+  table.real("pixel_unit.clock_ns", clock_ns, {0.1, 1e6}, About{"ns", "Clock of the pixel unit.", rate});
+  table.integer("pixel_unit.cycles_per_pixel", cycles_per_pixel, {1, 10000},
+                About{"cycles", "From a pixel to the next: the initiation interval.", rate});
+  table.integer("pixel_unit.latency_cycles", latency_cycles, {1, 10000},
+                About{"cycles", "From a triangle's first pixel to its levels.", rate});
+  table.integer("pixel_unit.cycles_per_line", cycles_per_line, {0, 10000},
+                About{"cycles", "Lost from a line to the next: what the method starts anew.", rate});
+  table.integer("pixel_unit.load_cycles", load_cycles, {0, 10000},
+                About{"cycles", "From a load to its first pixel.", rate});
+  table.integer("pixel_unit.shadow_sets", shadow_sets, {0, 1024},
+                About{"sets", "Register sets that the next triangles are written to while one is drawn.", rate});
+}
+
+}  // namespace rastertlm::pixel_unit
