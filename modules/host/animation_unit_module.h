@@ -37,6 +37,7 @@ class AnimationUnitModule : public sc_core::sc_module {
   bool guarded() const { return guarded_; }
   std::uint64_t pieces_dropped() const { return pieces_dropped_; }  // of the frame of work()
   const stream::Occupancy& occupancy(std::uint64_t end_ps) { return meter_.close(end_ps); }
+  stream::OccupancyMeter& meter() { return meter_; }
 
  private:
   void run_guarded();

@@ -55,6 +55,7 @@ class ComputationUnitModule : public sc_core::sc_module {
   const std::vector<Update>& updates() const { return updates_; }
   std::uint64_t words_sent() const { return words_sent_; }
   const stream::Occupancy& occupancy(std::uint64_t end_ps) { return meter_.close(end_ps); }
+  stream::OccupancyMeter& meter() { return meter_; }
 
  private:
   void run_guarded();

@@ -57,6 +57,7 @@ class TableLoaderModule : public sc_core::sc_module {
   const stream::Occupancy& occupancy(std::size_t engine, std::uint64_t end_ps) {
     return engines_[engine].meter.close(end_ps);
   }
+  stream::OccupancyMeter& meter(std::size_t engine) { return engines_[engine].meter; }
   const Clock& clock(std::size_t engine) const { return engines_[engine].meter.clock(); }
 
  private:

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
 #include "src/base/units.h"
 
 namespace rastertlm::stream {
+
+// Told of words that cross from one time to another, in picoseconds.
+using LinkWatcher = std::function<void(std::uint64_t words, std::uint64_t begin_ps, std::uint64_t end_ps)>;
 
 class Link {
  public:
@@ -21,6 +25,9 @@ class Link {
   unsigned bits() const { return bits_; }
   const Clock& clock() const { return clock_; }
 
+  // Of what is recorded with its times.
+  void watch(LinkWatcher watcher) { watcher_ = std::move(watcher); }
+
   // `words` of bits() each crossed in `active` cycles.
   void record(std::uint64_t words, Cycles active) {
     words_ += words;
@@ -30,6 +37,7 @@ class Link {
   // each other in time.
   void record(std::uint64_t words, Cycles active, std::uint64_t begin_ps, std::uint64_t end_ps) {
     record(words, active);
+    if (watcher_) watcher_(words, begin_ps, end_ps);
     last_ = {words, active, begin_ps, end_ps};
   }
   // Counting starts at `now_ps`: of what is on its way, the rest counts.
@@ -78,6 +86,7 @@ class Link {
   std::uint64_t words_ = 0;
   Cycles active_;
   Last last_;
+  LinkWatcher watcher_;
 };
 
 }  // namespace rastertlm::stream

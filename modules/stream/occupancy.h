@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -30,14 +31,20 @@ struct Occupancy {
 
 enum class Activity { busy, starved, blocked, idle };
 
+// Told what was done from one time to another, in picoseconds, when it has ended.
+using ActivityWatcher = std::function<void(Activity activity, std::uint64_t begin_ps, std::uint64_t end_ps)>;
+
 // Follows one unit through simulated time and counts the cycles of its clock in each activity. A cycle belongs to the
 // activity during which it begins, so the four always add up.
 class OccupancyMeter {
  public:
   explicit OccupancyMeter(Clock clock) : clock_(std::move(clock)) {}
 
+  void watch(ActivityWatcher watcher) { watcher_ = std::move(watcher); }
+
   // From `picoseconds` on, the unit does `activity`.
   void enter(Activity activity, std::uint64_t picoseconds) {
+    tell(picoseconds);
     settle(picoseconds);
     activity_ = activity;
   }
@@ -45,14 +52,20 @@ class OccupancyMeter {
   void restart(std::uint64_t picoseconds) {
     occupancy_ = {};
     since_ = clock_.cycles_at(picoseconds).count();
+    entered_ps_ = picoseconds;
   }
   const Occupancy& close(std::uint64_t picoseconds) {
+    tell(picoseconds);
     settle(picoseconds);
     return occupancy_;
   }
   const Clock& clock() const { return clock_; }
 
  private:
+  void tell(std::uint64_t picoseconds) {
+    if (watcher_ && picoseconds > entered_ps_) watcher_(activity_, entered_ps_, picoseconds);
+    entered_ps_ = std::max(picoseconds, entered_ps_);
+  }
   void settle(std::uint64_t picoseconds) {
     // The end of a run may be rounded to a picosecond before the last transition: no time has passed then.
     const std::uint64_t now = std::max(clock_.cycles_at(picoseconds).count(), since_);
@@ -79,6 +92,8 @@ class OccupancyMeter {
   Occupancy occupancy_;
   Activity activity_ = Activity::idle;
   std::uint64_t since_ = 0;
+  ActivityWatcher watcher_;
+  std::uint64_t entered_ps_ = 0;
 };
 
 }  // namespace rastertlm::stream

@@ -86,6 +86,7 @@ class Imogene {
   // Simulates until the last frame has been shown, and checks the identities of conservation (ModelError).
   void run();
 
+  const Options& options() const { return options_; }
   const Machine& machine() const { return machine_; }
   const video::Timing& timing() const { return timing_; }
   const geometry::SnapGrids& grids() const { return grids_; }
@@ -110,6 +111,7 @@ class Imogene {
   decision_unit::DecisionUnit& decision() { return decision_; }
   decision_unit::DecisionUnitModule& decision_module() { return *decision_module_; }
   const Books& books() const { return books_; }
+  std::deque<stream::Link>& links() { return links_; }
   // The most processors that pieces of clipped triangles asked for in a displayed frame, beyond one a triangle.
   std::uint64_t most_pieces() const { return most_pieces_; }
 

@@ -14,7 +14,6 @@
 #include "src/report/output_directory.h"
 #include "src/report/result_writer.h"
 #include "src/report/text_report.h"
-#include "src/run/simulate.h"
 
 namespace rastertlm::cli {
 namespace {
@@ -77,6 +76,24 @@ void RenderCommand::declare(CLI::App& app) {
                "simulate also what the scene does not need: of the figures, modelled alone changes");
   app.add_flag("--host-figures", host_figures_, "report time and memory of the simulation itself");
   app.add_flag("--no-reference", no_reference_, "do not render the exact pictures, measure no error");
+  validated(app.add_option("--timeline-frames", timeline_frames_, "write timeline.json, of these displayed frames")
+                ->type_name("A..B"),
+            dotted_range);
+  validated(app.add_option("--timeline-lines", timeline_lines_, "write timeline.json, of these scan lines")
+                ->type_name("A..B"),
+            dotted_range);
+}
+
+run::Options RenderCommand::run_options() const {
+  run::Options options{frames_, model_everything_, !no_reference_, host_figures_};
+  const auto range = [](const std::string& text) {
+    if (text.empty()) return run::NumberRange();
+    const auto [first, last] = dotted_range_of(text);
+    return run::NumberRange{first, last};
+  };
+  if (!timeline_frames_.empty() || !timeline_lines_.empty())
+    options.timeline = run::TimelineRange{range(timeline_frames_), range(timeline_lines_)};
+  return options;
 }
 
 std::string RenderCommand::output_directory() const {
@@ -92,9 +109,8 @@ ExitCode RenderCommand::run() {
   const run::Inputs inputs = run::read_inputs(machine_, scene_, overrides_);
   report::OutputDirectory directory(output_directory());
   report::ResultWriter writer(directory);
-  const run::Options options{frames_, model_everything_, !no_reference_, host_figures_};
   const report::Contents contents =
-      writer.write_reports({simulate(inputs, options, writer), host_figures_}, run::resolved_machine_toml(inputs),
+      writer.write_reports({simulate(inputs, run_options(), writer), host_figures_}, run::resolved_machine_toml(inputs),
                            run::resolved_scene_toml(inputs));
   directory.commit();
   print_summary(contents.result, output_directory());

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "src/cli/command.h"
-#include "src/run/result.h"
+#include "src/run/simulate.h"
 
 namespace rastertlm::cli {
 
@@ -28,7 +28,11 @@ class RenderCommand : public Command {
   bool host_figures_ = false;
   bool no_reference_ = false;
 
+  std::string timeline_frames_;
+  std::string timeline_lines_;
+
   std::string output_directory() const;
+  run::Options run_options() const;
 };
 
 // The sentences that say which requirement a run misses; none where it meets them. A rate is met also where the machine

@@ -86,6 +86,21 @@ std::string whole_range(const std::string& text) {
   return fmt::format("'{}' is not FROM-TO, two whole numbers of which the first is not above the second", text);
 }
 
+std::pair<std::uint64_t, std::uint64_t> dotted_range_of(const std::string& text) {
+  const std::size_t dots = text.find("..");
+  const std::string last = dots == std::string::npos ? text : text.substr(dots + 2);
+  std::pair<std::uint64_t, std::uint64_t> range{1, 0};
+  const bool reads = reads_as(text.substr(0, dots), range.first) && reads_as(last, range.second);
+  return reads ? range : std::pair<std::uint64_t, std::uint64_t>{1, 0};
+}
+
+std::string dotted_range(const std::string& text) {
+  const auto [first, last] = dotted_range_of(text);
+  if (first <= last) return {};
+  return fmt::format("'{}' is not A..B, two whole numbers of which the first is not above the second, nor one number",
+                     text);
+}
+
 std::string not_empty(const std::string& text) { return text.empty() ? "it is empty" : ""; }
 
 }  // namespace rastertlm::cli

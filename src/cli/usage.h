@@ -23,6 +23,11 @@ std::string field_number(const std::string& text);  // 0 or 1
 std::string whole_range(const std::string& text);   // FROM-TO
 std::string not_empty(const std::string& text);
 
+std::string dotted_range(const std::string& text);  // A..B, or A alone
+
+// FROM and TO of a text that dotted_range() has nothing against.
+std::pair<std::uint64_t, std::uint64_t> dotted_range_of(const std::string& text);
+
 // FROM and TO of a text that whole_range() has nothing against.
 std::pair<std::uint64_t, std::uint64_t> range_of(const std::string& text);
 

@@ -8,6 +8,7 @@ namespace rastertlm::report {
 
 inline constexpr const char* kReportJson = "report.json";
 inline constexpr const char* kReportText = "report.txt";
+inline constexpr const char* kTimeline = "timeline.json";
 inline constexpr const char* kReportPage = "report.html";
 inline constexpr const char* kFramesCsv = "frames.csv";
 inline constexpr const char* kVectorsManifest = "manifest.json";

@@ -182,8 +182,9 @@ void keep_subdirectories(const std::string& old, const std::string& target) {
   }
 }
 
-// Partial and target change places; gives the name that what DIR was has now.
-std::string exchange(const std::string& partial, const std::string& target) {
+// Partial and target change places (std::exchange would be found under its name, and do something else); gives the name
+// that what DIR was has now.
+std::string change_places(const std::string& partial, const std::string& target) {
   if (::renameat2(AT_FDCWD, partial.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) == 0) return partial;
   // Not every file system can do it at once.
   std::string old = partial + kOld;
@@ -242,7 +243,7 @@ void OutputDirectory::commit() {
   const std::lock_guard lock(state.guard);
   refuse_what_is_not_ours(target_);
   if (exists(target_)) {
-    const std::string old = exchange(partial_, target_);
+    const std::string old = change_places(partial_, target_);
     committed_ = true;
     keep_subdirectories(old, target_);
     remove_quietly(old);

@@ -12,6 +12,7 @@
 #include "src/report/run_page.h"
 #include "src/report/text_file.h"
 #include "src/report/text_report.h"
+#include "src/report/timeline_json.h"
 
 namespace rastertlm::report {
 
@@ -44,6 +45,7 @@ Contents ResultWriter::write_reports(const Contents& contents, const std::string
   write_text_file(directory_.path(kReportText), text_report(stored));
   write_text_file(directory_.path(kReportPage),
                   run_page(stored, [&](const std::string& name) { return directory_.path(name); }));
+  if (contents.result.timeline) write_text_file(directory_.path(kTimeline), timeline_json(*contents.result.timeline));
   write_text_file(directory_.path(kReportJson), json);
   return stored;
 }

@@ -18,6 +18,7 @@
 #include "src/run/host_figures.h"
 #include "src/run/imogene_budgets.h"
 #include "src/run/imogene_figures.h"
+#include "src/run/imogene_timeline.h"
 #include "src/run/inputs.h"
 #include "src/run/table_budgets.h"
 
@@ -166,14 +167,17 @@ Result simulate_imogene(const imogene::Machine& machine, const Inputs& inputs, c
   Result result;
   std::unique_ptr<imogene::Imogene> platform;
   DisplayedFrames displayed(machine, scene, options, sink, result.frames);
+  std::optional<ImogeneTimeline> timeline;
   const auto show = [&](const imogene::ShownFrame& shown, const frame::Frame& pixels) {
     const auto entered = std::chrono::steady_clock::now();
     displayed.add(*platform, shown, pixels);
+    if (timeline) timeline->add(shown);
     outside += std::chrono::steady_clock::now() - entered;
   };
   try {
     platform = std::make_unique<imogene::Imogene>(machine, scene,
                                                   imogene::Options{options.frames, options.model_everything}, show);
+    if (options.timeline) timeline.emplace(*options.timeline, *platform);
     platform->run();
   } catch (const InputError& error) {
     throw inputs.content->located(error);
@@ -198,6 +202,7 @@ Result simulate_imogene(const imogene::Machine& machine, const Inputs& inputs, c
   result.logic = logic_figures(*platform);
   result.modelled = modelled_figures(*platform, scene, options.model_everything);
   add_warnings(*platform, platform->shader(), result);
+  if (timeline) result.timeline = std::make_shared<const Timeline>(timeline->close(result));
   if (options.host_figures)
     result.host = host_figures(std::chrono::steady_clock::now() - start - outside,
                                options.frames * platform->timing().fields * platform->timing().frame.count());

@@ -118,6 +118,8 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   const scene::Scene& scene = *inputs.content->scene;
   const auto start = std::chrono::steady_clock::now();
   std::chrono::steady_clock::duration outside{};  // spent in references and sinks, which is not the simulation's
+  if (options.timeline)
+    throw InputError(Diagnostic{"--timeline-frames", 0, "", "the quadratic machine has no timeline yet"});
   Result result;
   Exact exact(machine, scene, options.exact);
   const auto show = [&](const quadratic::ShownFrame& shown, const frame::Frame& pixels) {

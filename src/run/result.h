@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "src/frame/frame.h"
 #include "src/reference/metrics.h"
+#include "src/run/timeline.h"
 
 namespace rastertlm::run {
 
@@ -220,6 +222,7 @@ struct Result {
   std::vector<FrameFigures> frames;
   std::vector<std::string> warnings;
   HostFigures host;
+  std::shared_ptr<const Timeline> timeline;  // where it was asked for; in no report
 };
 
 }  // namespace rastertlm::run

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "src/frame/frame.h"
 #include "src/parameter/table.h"
 #include "src/run/result.h"
+#include "src/run/timeline.h"
 
 namespace rastertlm::run {
 
@@ -24,11 +26,12 @@ class ExactStore {
 };
 
 struct Options {
-  std::uint64_t frames = 1;       // displayed frames
-  bool model_everything = false;  // simulate also what the scene does not need; the figures are the same
-  bool reference = true;          // render the exact pictures and measure the error
-  bool host_figures = false;      // fill Result::host
-  ExactStore* exact = nullptr;    // where exact pictures are looked for; none: each is rendered
+  std::uint64_t frames = 1;                    // displayed frames
+  bool model_everything = false;               // simulate also what the scene does not need; the figures are the same
+  bool reference = true;                       // render the exact pictures and measure the error
+  bool host_figures = false;                   // fill Result::host
+  ExactStore* exact = nullptr;                 // where exact pictures are looked for; none: each is rendered
+  std::optional<TimelineRange> timeline = {};  // fill Result::timeline
 };
 
 // A machine and a scene, read, checked and resolved.
