@@ -64,7 +64,7 @@ std::uint32_t FrameStore::draw(std::span<const span_unit::Span> spans, std::uint
   request.levels = buffer.levels.data();
   request.depths = buffer.depth.data();
   if (!buffer.objects.empty()) {
-    request.ties = true;
+    request.ties = format_.ties;
     request.objects = buffer.objects.data();
     request.materials = buffer.materials.data();
   }

@@ -36,6 +36,7 @@ class FrameStore {
     std::array<std::uint8_t, 3> background{0, 0, 0};  // levels of nothing
     span_unit::PixelFormat pixels{};                  // of the spans that are drawn
     Keep keep = Keep::everything;
+    bool ties = false;  // the store has the triangles' numbers, and compares them where depths are equal
   };
 
   FrameStore(const FrameStoreParameters& parameters, const Format& format, VectorVariant variant = vector_variant());
@@ -43,9 +44,9 @@ class FrameStore {
   // Of the picture that is drawn: nothing everywhere.
   void clear();
   // Spans of a triangle, on the screen, on one line after the other. Strictly smaller depth wins; equal depth keeps the
-  // lower object where numbers are kept, else the first. Without a depth test what comes last stays. Returns how many
-  // pixels won; `won`, where given and of a single span, a bit a pixel which: from the lowest on, in as many words as
-  // hold them.
+  // lower object where the store compares numbers, else the first. Without a depth test what comes last stays. Returns
+  // how many pixels won; `won`, where given and of a single span, a bit a pixel which: from the lowest on, in as many
+  // words as hold them.
   std::uint32_t draw(std::span<const span_unit::Span> spans, std::uint32_t object, std::uint32_t material,
                      std::uint64_t* won = nullptr);
   // What was drawn is shown; where there are two buffers, the other one is drawn.

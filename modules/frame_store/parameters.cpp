@@ -1,5 +1,7 @@
 #include "modules/frame_store/parameters.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace rastertlm::frame_store {
@@ -36,8 +38,12 @@ void FrameStoreParameters::declare(parameter::Table& table) {
 }
 
 void FrameStoreParameters::check(const std::string& file, Diagnostics& diagnostics) const {
-  if (std::floor(access_ns * kPicosecondsANanosecond) != access_ns * kPicosecondsANanosecond)
-    diagnostics.add({file, 0, "frame_store.access_ns", "is no whole number of picoseconds"});
+  constexpr double kNoise = 1e-6;  // of a decimal fraction as a double
+  const double picoseconds = access_ns * kPicosecondsANanosecond;
+  if (std::fabs(picoseconds - std::round(picoseconds)) > kNoise)
+    diagnostics.add({file, 0, "frame_store.access_ns",
+                     fmt::format("{} ns is no whole number of picoseconds; the nearest that is accepted is {}",
+                                 access_ns, std::round(picoseconds) / kPicosecondsANanosecond)});
 }
 
 std::uint64_t FrameStoreParameters::access_ps() const {

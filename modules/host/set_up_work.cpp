@@ -41,6 +41,12 @@ set_up::ColourCounts since(const set_up::ColourCounts& now, const set_up::Colour
           now.tests - then.tests};
 }
 template <>
+set_up::SubdivisionCounts since(const set_up::SubdivisionCounts& now, const set_up::SubdivisionCounts& then) {
+  return {now.divided - then.divided,  now.parts - then.parts,     now.centres - then.centres,
+          now.beside - then.beside,    now.unfound - then.unfound, now.inserted - then.inserted,
+          now.at_limit - then.at_limit};
+}
+template <>
 set_up::LightingCounts since(const set_up::LightingCounts& now, const set_up::LightingCounts& then) {
   return {now.evaluations - then.evaluations, now.clamped_knots - then.clamped_knots, now.not_finite - then.not_finite};
 }
@@ -58,7 +64,7 @@ SetUpWork::SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& 
     : scene_(scene),
       parameters_(parameters),
       format_(format),
-      linear_(parameters.method == ShadingMethod::gouraud),
+      linear_(parameters.linear()),
       grid_(geometry::frame_grid(span_grids(format.viewport, static_cast<int>(parameters.snap_bits)), true,
                                  format.viewport)),
       near_word_(static_cast<double>(set_up::near_depth(depth_format(format)))),
@@ -69,6 +75,8 @@ SetUpWork::SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& 
       object_to_clip_(scene.objects.size()),
       kernels_(set_up::triangle_kernels(vector_variant())) {
   count_paths();
+  if (parameters.classifies())
+    for (const auto& object : scene.objects) classifiers_.emplace_back(*object.mesh);
 }
 
 void SetUpWork::count_paths() {
@@ -107,7 +115,20 @@ void SetUpWork::begin_frame(const geometry::Pose& pose, bool viewer_at_eye) {
   number_ = 0;
   counts_ = {};
   colour_start_ = colourer_.counts();
+  subdivision_start_ = colourer_.subdivision();
   lighting_start_ = lighting_.counts();
+  if (parameters_.classifies()) classify();
+}
+
+// Before any triangle is drawn: what it takes is charged to the first.
+void SetUpWork::classify() {
+  highlighted_.clear();
+  for (std::size_t i = 0; i < classifiers_.size(); ++i) {
+    highlighted_.push_back(&classifiers_[i].classify(
+        pose_.object_to_eye[i], {lighting_.lights(), lighting_.viewer_at_eye()}, parameters_.rings));
+    counts_.classified += classifiers_[i].counts();
+    waiting_operations_ += classifiers_[i].operations();
+  }
 }
 
 set_up::Pieces<double> SetUpWork::pieces_of(std::size_t object, std::size_t triangle, bool& cut) const {
@@ -179,8 +200,7 @@ bool SetUpWork::next() {
     for (const auto& piece : pieces.list()) colour(piece, object_, triangle_);
   }
   triangle_operations_ += colourer_.operations() - colouring;
-  if (parameters_.method == ShadingMethod::quadratic_adaptive)
-    frame_.insert(frame_.end(), coloured_.begin(), coloured_.end());
+  if (parameters_.makes_parts()) frame_.insert(frame_.end(), coloured_.begin(), coloured_.end());
   for (const set_up::ColourTriangle& triangle : coloured_) {
     // The room is used again from triangle to triangle: a load is large.
     if (load_count_ == room_.size()) room_.emplace_back();
@@ -188,7 +208,9 @@ bool SetUpWork::next() {
     set_up::put_span_load(triangle, format_.span, load);
     triangle_operations_ += set_up::cost_of(load, load_costs_);
     counts_.words += words_of(load);
-    if (load.count > 0) ++load_count_;
+    if (load.count == 0) continue;
+    ++load_count_;
+    counts_.wraps += load.wraps ? 1 : 0;
   }
   counts_.loads += load_count_;
   counts_.operations += triangle_operations_;
@@ -196,10 +218,16 @@ bool SetUpWork::next() {
   return true;
 }
 
+set_up::ColourSteps SetUpWork::colour_steps() const {
+  const bool moved = parameters_.child_coverage == set_up::ChildCoverage::snapped;
+  return set_up::colour_steps(frame_, moved ? parameters_.corner_bits() - static_cast<int>(parameters_.snap_bits) : 0);
+}
+
 SetUpCounts SetUpWork::counts() const {
   SetUpCounts counts = counts_;
   counts.colour = since(colourer_.counts(), colour_start_);
   counts.lighting = since(lighting_.counts(), lighting_start_);
+  counts.subdivision = since(colourer_.subdivision(), subdivision_start_);
   return counts;
 }
 
@@ -215,6 +243,7 @@ void SetUpWork::colour(const set_up::ScreenTriangle<double>& piece, std::size_t 
   request.object = number_;
   request.material = scene_.objects[object].mesh->material[triangle];
   request.two_sided = scene_.objects[object].two_sided;
+  request.highlighted = !highlighted_.empty() && (*highlighted_[object])[triangle] != set_up::Highlighted::no;
   const int finer = parameters_.corner_bits() - static_cast<int>(parameters_.snap_bits);
   for (std::size_t i = 0; i < 3; ++i) {
     const geometry::ScreenVertex<double>& corner = piece[i];

@@ -10,6 +10,7 @@
 #include "modules/host/path_counts.h"
 #include "modules/host/resident_scene.h"
 #include "modules/set_up/colour_steps.h"
+#include "modules/set_up/highlight_classifier.h"
 #include "modules/set_up/parameters.h"
 #include "modules/set_up/pieces.h"
 #include "modules/set_up/point_lighting.h"
@@ -34,7 +35,10 @@ struct SetUpCounts {
   std::uint64_t pieces = 0;     // more than one a triangle, from clipping
   std::uint64_t loads = 0;
   std::uint64_t words = 0;
+  std::uint64_t wraps = 0;  // loads whose slopes a prestep's products cannot take
   set_up::ColourCounts colour;
+  set_up::ClassifiedCounts classified;    // methods of 003
+  set_up::SubdivisionCounts subdivision;  // likewise
   set_up::LightingCounts lighting;
   geometry::OperationCounts operations;
 };
@@ -58,7 +62,7 @@ class SetUpWork {
   // Of the frame so far.
   SetUpCounts counts() const;
   // Of a frame that has been computed, where the method splits triangles.
-  set_up::ColourSteps colour_steps() const { return set_up::colour_steps(frame_); }
+  set_up::ColourSteps colour_steps() const;
   const geometry::FrameGrid& grid() const { return grid_; }
 
  private:
@@ -69,6 +73,7 @@ class SetUpWork {
   void colour(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle);
   glm::dvec3 eye_position(const geometry::ScreenVertex<double>& corner) const;
   void count_paths();
+  void classify();
 
   const ResidentScene& scene_;
   set_up::SetUpParameters parameters_;
@@ -93,7 +98,10 @@ class SetUpWork {
   geometry::OperationCounts waiting_operations_;  // of the frame's matrices, charged to its first triangle
   geometry::OperationCounts triangle_operations_;
   set_up::ColourCounts colour_start_;
+  set_up::SubdivisionCounts subdivision_start_;
   set_up::LightingCounts lighting_start_;
+  std::vector<set_up::HighlightClassifier> classifiers_;  // an object each, for methods that need them
+  std::vector<const std::vector<set_up::Highlighted>*> highlighted_;
   // Eight triangles of an object at a time: those that lie on the screen are not clipped one by one.
   const set_up::TriangleKernels& kernels_;
   set_up::ObjectCorners block_;

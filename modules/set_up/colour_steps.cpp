@@ -47,7 +47,7 @@ double step_along(const ColourTriangle& a, const ColourTriangle& b, const Snappe
 
 class Steps {
  public:
-  explicit Steps(std::span<const ColourTriangle> triangles) {
+  Steps(std::span<const ColourTriangle> triangles, int moved_bits) : moved_bits_(moved_bits) {
     for (const ColourTriangle& triangle : triangles)
       for (std::size_t i = 0; i < 3; ++i)
         beside_[edge_of(triangle.corners[i], triangle.corners[(i + 1) % 3])].push_back(&triangle);
@@ -55,8 +55,9 @@ class Steps {
 
   // Whether `whole` has the edge alone, and others have it in parts.
   bool compare(const ColourTriangle& whole, const SnappedPoint& p, const SnappedPoint& q) {
-    const SnappedPoint middle{(p.x + q.x) / 2, (p.y + q.y) / 2};
-    if ((p.x + q.x) % 2 != 0 || (p.y + q.y) % 2 != 0 || middle == p) return false;
+    if ((p.x + q.x) % 2 != 0 || (p.y + q.y) % 2 != 0) return false;
+    const SnappedPoint middle{moved((p.x + q.x) / 2), moved((p.y + q.y) / 2)};
+    if (middle == p || middle == q) return false;
     bool found = false;
     for (const auto& [from, to] : {std::pair(p, middle), std::pair(middle, q)}) {
       const auto part = beside_.find(edge_of(from, to));
@@ -73,14 +74,19 @@ class Steps {
   double largest() const { return largest_; }
 
  private:
+  std::int64_t moved(std::int64_t v) const {
+    return ((v + (std::int64_t{1} << moved_bits_) / 2) >> moved_bits_) << moved_bits_;
+  }
+
+  int moved_bits_;
   std::map<Edge, std::vector<const ColourTriangle*>> beside_;
   double largest_ = 0.0;
 };
 
 }  // namespace
 
-ColourSteps colour_steps(std::span<const ColourTriangle> triangles) {
-  Steps steps(triangles);
+ColourSteps colour_steps(std::span<const ColourTriangle> triangles, int moved_bits) {
+  Steps steps(triangles, moved_bits);
   ColourSteps result;
   for (const ColourTriangle& triangle : triangles)
     for (std::size_t i = 0; i < 3; ++i)

@@ -14,8 +14,8 @@ struct ColourSteps {
   double largest_levels = 0.0;  // of any channel anywhere along them
 };
 
-// Of a frame's triangles on one grid, children of split ones in their place. Corners that are the same point are one:
-// a frame's triangles, their children included, have exact midpoints.
-ColourSteps colour_steps(std::span<const ColourTriangle> triangles);
+// Of a frame's triangles on one grid, children of split ones in their place. Corners that are the same point are one.
+// Children's corners are midpoints of their parents', moved to multiples of 2^`moved_bits` steps (0: not moved).
+ColourSteps colour_steps(std::span<const ColourTriangle> triangles, int moved_bits = 0);
 
 }  // namespace rastertlm::set_up

@@ -35,7 +35,8 @@ class FixedNumber {
   friend FixedNumber operator/(FixedNumber a, FixedNumber b) {
     if (!both(a, b) || b.raw_ == 0) return none();
     const Wide numerator = Wide{a.raw_} * (Wide{1} << (kFractionBits + 1));
-    const Wide twice = numerator / b.raw_;  // towards zero; rounded from its last bit
+    Wide twice = numerator / b.raw_;
+    if (numerator % b.raw_ != 0 && (numerator < 0) != (b.raw_ < 0)) --twice;  // downwards; rounded from its last bit
     return of((twice + 1) >> 1);
   }
   // Nothing is smaller or larger than what is no number.

@@ -66,7 +66,18 @@ void SetUpParameters::check(const std::string& file, Diagnostics& diagnostics) c
 }
 
 int SetUpParameters::corner_bits() const {
-  return static_cast<int>(snap_bits + (method == ShadingMethod::quadratic_adaptive ? test_depth_limit : 0));
+  // Highlight subdivision puts corners at 64ths of an edge, light after light: as fine as products in 64 bits allow.
+  constexpr std::int64_t kFinest = 16;
+  switch (method) {
+    case ShadingMethod::quadratic_adaptive:
+      return static_cast<int>(snap_bits + test_depth_limit);
+    case ShadingMethod::regular_subdivision:
+      return static_cast<int>(snap_bits + depth_limit);
+    case ShadingMethod::highlight_subdivision:
+      return static_cast<int>(kFinest);
+    default:
+      return static_cast<int>(snap_bits);
+  }
 }
 
 const std::vector<std::int64_t>& fixed_formats() {

@@ -33,11 +33,28 @@ struct SetUpParameters {
   TestPoints test_points = TestPoints::centroid;
   std::int64_t test_depth_limit = 4;
   ChildCoverage child_coverage = ChildCoverage::parent;
+  // Of the methods of 003:
+  std::int64_t rings = 1;        // of neighbours of triangles that may hold a highlight
+  std::int64_t refinements = 2;  // of its centre: H1 and H2 in turns
+  double area_pixels = 32.0;     // regular subdivision goes on above it
+  double intensity_error = 0.3;  // relative: highlight subdivision puts a vertex on an edge above it
+  std::int64_t depth_limit = 6;  // of subdivision
 
   // Paths "set_up.method" ..., "highlight_test.threshold_levels" ..., "subdivision.coverage"
   void declare(parameter::Table& table);
   // A fixed format that the program has not, a method that other platforms offer.
   void check(const std::string& file, Diagnostics& diagnostics) const;
+
+  // Colours are linear on what is drawn.
+  bool linear() const { return method != ShadingMethod::quadratic && method != ShadingMethod::quadratic_adaptive; }
+  // Cut up where a highlight may be, as 003 does.
+  bool subdivides() const {
+    return method == ShadingMethod::regular_subdivision || method == ShadingMethod::highlight_subdivision;
+  }
+  // Triangles are told apart before any is drawn.
+  bool classifies() const { return subdivides() || method == ShadingMethod::gouraud_phong; }
+  // Triangles are cut into parts whose corners are on a finer grid.
+  bool makes_parts() const { return subdivides() || method == ShadingMethod::quadratic_adaptive; }
 
   // Fraction bits of corners: those of the grid, and one for every time that a triangle may be split.
   int corner_bits() const;

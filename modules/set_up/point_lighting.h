@@ -41,6 +41,8 @@ class PointLighting {
   // Of a frame, in eye space. `viewer_at_eye`: not infinitely far.
   void set_lights(std::vector<geometry::LightSource> lights, bool viewer_at_eye);
   bool needs_positions() const { return needs_positions_; }
+  const std::vector<geometry::LightSource>& lights() const { return lights_; }
+  bool viewer_at_eye() const { return viewer_at_eye_; }
 
   LitPoint middle(const LitPoint& a, const LitPoint& b);
   // `weights` of the corners, on the screen; they add up to 1.

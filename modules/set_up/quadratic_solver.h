@@ -70,8 +70,23 @@ class BarycentricSolver {
     return form;
   }
 
-  // Linear, through the corners' colours alone (Gouraud).
-  QuadraticForm<T> solve_linear(const T& i1, const T& i2, const T& i3) const {
+ private:
+  T a1_, a2_, b1_, b2_;
+  T a11_, a22_, b11_, b22_, ab1_, ab2_, ab12_, aa_, bb_;
+};
+
+// Linear, through the corners' colours alone (Gouraud).
+template <class T>
+class LinearSolver {
+ public:
+  LinearSolver(const T& x2, const T& y2, const T& x3, const T& y3) {
+    const T r = T(1.0) / (x2 * y3 - y2 * x3);
+    a1_ = -x3 * r;
+    a2_ = y3 * r;
+    b1_ = x2 * r;
+    b2_ = -y2 * r;
+  }
+  QuadraticForm<T> solve(const T& i1, const T& i2, const T& i3) const {
     const T d2 = i2 - i1;
     const T d3 = i3 - i1;
     QuadraticForm<T> form;
@@ -83,7 +98,6 @@ class BarycentricSolver {
 
  private:
   T a1_, a2_, b1_, b2_;
-  T a11_, a22_, b11_, b22_, ab1_, ab2_, ab12_, aa_, bb_;
 };
 
 // The printed formulas with their common terms computed once.

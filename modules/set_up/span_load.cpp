@@ -202,6 +202,29 @@ span_unit::TriangleLoad span_load(const ColourTriangle& triangle, const SpanForm
   return load;
 }
 
+namespace {
+
+// Products need the signed number; sums go on without what has been lost.
+bool slopes_wrap(const ColourTriangle& triangle, const Slopes<double>& depth, const SpanFormat& format) {
+  const auto beyond = [](double value, unsigned fraction_bits, unsigned word_bits) {
+    return !(std::fabs(value) < std::ldexp(0.5, static_cast<int>(word_bits - fraction_bits)));
+  };
+  if (beyond(depth.x, format.depth_fraction_bits, format.depth_bits + format.depth_fraction_bits)) return true;
+  const double unit = 1.0 / static_cast<double>(std::int64_t{1} << triangle.fraction_bits);
+  for (const QuadraticForm<double>& form : triangle.colour) {
+    if (beyond(2 * form.t5, format.fraction_bits, format.word_bits)) return true;
+    // dI is linear: its largest is at a corner.
+    for (const geometry::SnappedPoint& corner : triangle.corners) {
+      const double x = static_cast<double>(corner.x - triangle.corners[0].x) * unit;
+      const double y = static_cast<double>(corner.y - triangle.corners[0].y) * unit;
+      if (beyond(form.t2 + 2 * form.t5 * (x + 1) + form.t4 * y, format.fraction_bits, format.word_bits)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 void put_span_load(const ColourTriangle& triangle, const SpanFormat& format, span_unit::TriangleLoad& load) {
   load.count = 0;
   load.object = triangle.object;
@@ -228,6 +251,7 @@ void put_span_load(const ColourTriangle& triangle, const SpanFormat& format, spa
       load_registers<double>(at, triangle, depth, format, linear, half.registers);
   };
   load.second_goes_on = !middle_left;
+  load.wraps = format.start_edge == StartEdge::prestep && slopes_wrap(triangle, depth, format);
   for (int lower = 0; lower < 2; ++lower) {
     HalfTriangle& half = load.halves[load.count];
     half.first_line = lower == 0 ? first : second;

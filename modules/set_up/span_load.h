@@ -28,6 +28,7 @@ struct SpanFormat {
   unsigned word_bits = 32;
   unsigned fraction_bits = 20;
   unsigned depth_fraction_bits = 8;
+  unsigned depth_bits = 24;
   span_unit::StartEdge start_edge = span_unit::StartEdge::lattice;
   std::int64_t lines = 512;  // of the screen
   VectorVariant variant = vector_variant();
@@ -36,6 +37,7 @@ struct SpanFormat {
     return {static_cast<unsigned>(parameters.word_bits),
             static_cast<unsigned>(parameters.fraction_bits),
             static_cast<unsigned>(parameters.depth_fraction_bits),
+            static_cast<unsigned>(parameters.depth_bits),
             parameters.start_edge,
             lines,
             vector_variant()};

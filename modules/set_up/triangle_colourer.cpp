@@ -56,13 +56,19 @@ std::array<QuadraticForm<double>, 3> solve_as(const SetUpParameters& parameters,
 geometry::OperationCounts cost_of_solving(const SetUpParameters& parameters) {
   const geometry::OperationCounts before = geometry::operation_counts;
   const Offsets<Number> at{3.0, 1.0, -2.0, 5.0};
-  if (parameters.method == ShadingMethod::gouraud) {
-    const BarycentricSolver<Number> shared(at.x2, at.y2, at.x3, at.y3);
-    for (int c = 0; c < 3; ++c) shared.solve_linear(1.0, 2.0, 3.0);
+  if (parameters.linear()) {
+    const LinearSolver<Number> shared(at.x2, at.y2, at.x3, at.y3);
+    for (int c = 0; c < 3; ++c) shared.solve(1.0, 2.0, 3.0);
   } else {
     solve<Number, 3>(parameters.solver, at, {});
   }
-  return geometry::operation_counts - before;
+  geometry::OperationCounts cost = geometry::operation_counts - before;
+  if (parameters.arithmetic == SetUpArithmetic::fixed && !parameters.linear()) {
+    // In integers; a division stays one.
+    cost.integer += std::exchange(cost.add, 0) + std::exchange(cost.compare, 0);
+    cost.integer_multiply += std::exchange(cost.multiply, 0);
+  }
+  return cost;
 }
 
 std::int64_t doubled_area(const std::array<SnappedPoint, 3>& c) { return geometry::doubled_area(c[0], c[1], c[2]); }
@@ -82,17 +88,21 @@ ColourCounts& ColourCounts::operator+=(const ColourCounts& other) {
 }
 
 TriangleColourer::TriangleColourer(const SetUpParameters& parameters, PointLighting& lighting)
-    : parameters_(parameters), lighting_(lighting), solve_cost_(cost_of_solving(parameters)) {
+    : parameters_(parameters),
+      lighting_(lighting),
+      subdivision_(parameters, lighting),
+      solve_cost_(cost_of_solving(parameters)) {
   facing_cost_.integer = 6;
   facing_cost_.integer_multiply = 2;
-  test_cost_.multiply = 15;  // the form at a point, three channels
-  test_cost_.add = 15 + 3;
+  test_cost_.multiply = 15 + 4;  // the form at a point, three channels; where that is
+  test_cost_.add = 15 + 3 + 2;
   test_cost_.compare = 3;
 }
 
 geometry::OperationCounts TriangleColourer::operations() const {
   geometry::OperationCounts all = operations_;
   all += lighting_.operations();
+  all += subdivision_.operations();
   return all;
 }
 
@@ -118,13 +128,38 @@ void TriangleColourer::colour(const ColourRequest& request, std::vector<ColourTr
     ++counts_.back_faces;
     return;
   }
+  light_knots(request, turned, knots_);
+  if (request.highlighted && parameters_.subdivides()) return draw_parts(request, knots_, out);
+  begin_triangle(request, request.depth, out);
+  split_or_draw(knots_, 0, out);
+}
+
+void TriangleColourer::begin_triangle(const ColourRequest& request, const std::array<double, 3>& depth,
+                                      std::vector<ColourTriangle>& out) const {
   ColourTriangle& triangle = out.emplace_back();
   triangle.fraction_bits = parameters_.corner_bits();
   triangle.object = request.object;
   triangle.material = request.material;
-  triangle.depth = request.depth;
-  light_knots(request, turned, knots_);
-  split_or_draw(knots_, 0, out);
+  triangle.depth = depth;
+}
+
+void TriangleColourer::draw_parts(const ColourRequest& request, const Knots& knots, std::vector<ColourTriangle>& out) {
+  LitTriangle whole;
+  for (std::size_t i = 0; i < 3; ++i) whole[i] = {knots.point[i], knots.levels[i], request.depth[i]};
+  parts_.clear();
+  if (parameters_.method == ShadingMethod::regular_subdivision)
+    subdivision_.regular(whole, request.material, parts_);
+  else
+    subdivision_.highlight(whole, request.material, parts_);
+  Knots of_part;
+  for (const LitTriangle& part : parts_) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      of_part.point[i] = part[i].point;
+      of_part.levels[i] = part[i].levels;
+    }
+    begin_triangle(request, {part[0].depth, part[1].depth, part[2].depth}, out);
+    split_or_draw(of_part, 0, out);
+  }
 }
 
 void TriangleColourer::light_knots(const ColourRequest& request, bool turned, Knots& knots) {
@@ -132,7 +167,7 @@ void TriangleColourer::light_knots(const ColourRequest& request, bool turned, Kn
   std::copy(request.corners.begin(), request.corners.end(), points.begin());
   if (turned)
     for (std::size_t i = 0; i < 3; ++i) points[i].normal = -points[i].normal;
-  const bool linear = parameters_.method == ShadingMethod::gouraud;
+  const bool linear = parameters_.linear();
   if (!linear) {
     points[kMiddle12] = lighting_.middle(points[0], points[1]);
     points[kMiddle13] = lighting_.middle(points[0], points[2]);
@@ -169,7 +204,7 @@ void TriangleColourer::split_or_draw(const Knots& knots, int level, std::vector<
   if (is_low(triangle)) {
     ++counts_.flat_low;
     draw_flat(knots, triangle);
-  } else if (parameters_.method == ShadingMethod::gouraud) {
+  } else if (parameters_.linear()) {
     solve_linear(knots, triangle);
   } else {
     solve_quadratic(knots, triangle);
@@ -262,10 +297,10 @@ Offsets<double> offsets_of(const ColourTriangle& triangle) {
 void TriangleColourer::solve_linear(const Knots& knots, ColourTriangle& triangle) {
   operations_ += solve_cost_;
   const Offsets<double> at = offsets_of(triangle);
-  const BarycentricSolver<double> shared(at.x2, at.y2, at.x3, at.y3);
+  const LinearSolver<double> shared(at.x2, at.y2, at.x3, at.y3);
   for (int c = 0; c < 3; ++c)
     triangle.colour[static_cast<std::size_t>(c)] =
-        shared.solve_linear(knots.levels[0][c], knots.levels[1][c], knots.levels[2][c]);
+        shared.solve(knots.levels[0][c], knots.levels[1][c], knots.levels[2][c]);
 }
 
 void TriangleColourer::solve_quadratic(const Knots& knots, ColourTriangle& triangle) {

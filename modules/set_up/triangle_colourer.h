@@ -9,6 +9,7 @@
 #include "modules/set_up/parameters.h"
 #include "modules/set_up/point_lighting.h"
 #include "modules/set_up/span_load.h"
+#include "modules/set_up/subdivision.h"
 
 namespace rastertlm::set_up {
 
@@ -31,6 +32,7 @@ struct ColourRequest {
   std::uint32_t object = 0;         // from 1
   std::uint32_t material = 0;
   bool two_sided = false;
+  bool highlighted = false;  // may hold a highlight, or lies beside what may (003)
 };
 
 class TriangleColourer {
@@ -42,6 +44,7 @@ class TriangleColourer {
   void colour(const ColourRequest& request, std::vector<ColourTriangle>& out);
 
   const ColourCounts& counts() const { return counts_; }
+  const SubdivisionCounts& subdivision() const { return subdivision_.counts(); }
   // Operations since the start of the run, light included.
   geometry::OperationCounts operations() const;
 
@@ -60,6 +63,9 @@ class TriangleColourer {
   };
   static Knots together(const std::array<Knot, kKnots>& knots);
 
+  void begin_triangle(const ColourRequest& request, const std::array<double, 3>& depth,
+                      std::vector<ColourTriangle>& out) const;
+  void draw_parts(const ColourRequest& request, const Knots& knots, std::vector<ColourTriangle>& out);
   void light_knots(const ColourRequest& request, bool turned, Knots& knots);
   Knot knot_of(const LitPoint& point, std::uint32_t material);
   Knot between(const Knot& a, const Knot& b, std::uint32_t material);
@@ -77,12 +83,14 @@ class TriangleColourer {
 
   SetUpParameters parameters_;
   PointLighting& lighting_;
+  Subdivision subdivision_;
   ColourCounts counts_;
   geometry::OperationCounts operations_;
   geometry::OperationCounts solve_cost_;  // three channels
   geometry::OperationCounts facing_cost_;
   geometry::OperationCounts test_cost_;  // one point, without its light
   Knots knots_;                          // of the last triangle that was given
+  std::vector<LitTriangle> parts_;       // of it, where it is cut up
 };
 
 }  // namespace rastertlm::set_up

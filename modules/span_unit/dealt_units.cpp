@@ -40,7 +40,7 @@ std::uint64_t DealtUnits::accept(const TriangleLoad& load, std::uint64_t asked_p
   else if (known >= sets)  // the triangle that was so many before this one has started
     set_free = unit.starts_ps[known - sets];
   const std::uint64_t begin = std::max(asked_ps, set_free);
-  unit.waiting.push_back({load, clock_.cycles_at(begin + write_ps).count()});
+  unit.waiting.push_back({load, clock_.cycles_at(begin + write_ps).count() + count(parameters_.load_cycles)});
   return begin;
 }
 
@@ -55,7 +55,7 @@ std::uint64_t DealtUnits::finish() {
 // When the unit next does something.
 std::uint64_t DealtUnits::due(const Unit& unit) const {
   if (unit.drawing()) return unit.cycle;
-  return unit.waiting.empty() ? kNever : std::max({unit.waiting.front().written, unit.free, buffer_free_});
+  return unit.waiting.empty() ? kNever : std::max({unit.waiting.front().ready, unit.free, buffer_free_});
 }
 
 bool DealtUnits::advance() {
@@ -75,9 +75,11 @@ bool DealtUnits::advance() {
 }
 
 void DealtUnits::start(Unit& unit) {
-  const std::uint64_t there = std::max(unit.waiting.front().written, unit.free);
+  const std::uint64_t there = std::max(unit.waiting.front().ready, unit.free);
   const std::uint64_t begin = std::max(there, buffer_free_);
-  unit.cycles.starved += there - unit.free;
+  const std::uint64_t loading = std::min<std::uint64_t>(count(parameters_.load_cycles), there - unit.free);
+  unit.cycles.busy += loading;
+  unit.cycles.starved += there - unit.free - loading;
   unit.cycles.blocked += begin - there;
   buffer_cycles_ += begin - there;
   unit.load = unit.waiting.front().load;
@@ -87,8 +89,7 @@ void DealtUnits::start(Unit& unit) {
   const std::span<const Span> spans = unit.core.draw(unit.load).spans;
   unit.spans.assign(spans.begin(), spans.end());
   unit.next = 0;
-  unit.cycle = begin + count(parameters_.load_cycles);
-  unit.cycles.busy += count(parameters_.load_cycles);
+  unit.cycle = begin;
   if (!unit.drawing()) unit.free = unit.cycle;
 }
 

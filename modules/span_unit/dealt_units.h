@@ -45,7 +45,7 @@ class DealtUnits {
  private:
   struct Waiting {
     TriangleLoad load;
-    std::uint64_t written = 0;  // cycle
+    std::uint64_t ready = 0;  // cycle of the first pixel, if nothing else waits
   };
   struct Unit {
     SpanUnit core;

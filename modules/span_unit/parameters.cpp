@@ -49,8 +49,9 @@ void SpanUnitParameters::check(const std::string& file, Diagnostics& diagnostics
                                  fraction_bits, kIntegerBits, word_bits, word_bits - kIntegerBits)});
   if (depth_bits + depth_fraction_bits > kDepthRegister)
     diagnostics.add({file, 0, "span_unit.depth_fraction_bits",
-                     fmt::format("{} bits of depth and {} below them are more than the {} of a depth register",
-                                 depth_bits, depth_fraction_bits, kDepthRegister)});
+                     fmt::format("{} bits of depth and {} below them are more than the {} of a depth "
+                                 "register; at most {} are accepted",
+                                 depth_bits, depth_fraction_bits, kDepthRegister, kDepthRegister - depth_bits)});
 }
 
 double fraction_bound(std::int64_t fraction_bits, std::uint64_t steps) {
@@ -58,8 +59,12 @@ double fraction_bound(std::int64_t fraction_bits, std::uint64_t steps) {
   return std::ldexp((k * k + k + 2) / 2, -static_cast<int>(fraction_bits) - 1);
 }
 
+double linear_fraction_bound(std::int64_t fraction_bits, std::uint64_t steps) {
+  return std::ldexp(static_cast<double>(steps) + 1, -static_cast<int>(fraction_bits) - 1);
+}
+
 std::uint64_t longest_iteration(const SpanUnitParameters& parameters, std::uint64_t columns, std::uint64_t lines) {
-  return columns + lines * (parameters.start_edge == StartEdge::lattice ? 2 : 1);
+  return 2 * columns + lines * (parameters.start_edge == StartEdge::lattice ? 2 : 1);
 }
 
 }  // namespace rastertlm::span_unit

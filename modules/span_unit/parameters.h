@@ -14,7 +14,8 @@ namespace rastertlm::span_unit {
 // lattice: from pixel to pixel; where the edge's column moves by one more than the whole part of its slope, a second
 //   step is added ("carry"). No multiplier, no error but rounding.
 // prestep: along the edge itself, and at every line the distance to the first pixel, with `prestep_bits`, is multiplied
-//   in.
+//   in. Sums may wrap on the way to a result, products may not: a slope that the word does not hold as a signed number
+//   (of slivers) makes pixels that are not the triangle's. Such loads are counted.
 // published: along the edge itself, and what stands there is shown on the first pixel (000/001 to the letter).
 enum class StartEdge { lattice, prestep, published };
 // Where the second step of a carry is made: in a second rank of adders, or in one more clock.
@@ -52,8 +53,11 @@ struct SpanUnitParameters {
 // The most that a colour may be off after `steps` line and pixel steps in registers whose six constants were rounded to
 // nearest, in levels: 2^-(fraction_bits + 1) (k^2 + k + 2) / 2. A proof, and attained (numerics: adversarial rounding).
 double fraction_bound(std::int64_t fraction_bits, std::uint64_t steps);
+// The same of a linear colour, or of depth in its units, three constants: 2^-(fraction_bits + 1) (k + 1).
+double linear_fraction_bound(std::int64_t fraction_bits, std::uint64_t steps);
 
-// Line and pixel steps of the longest iteration on a screen: lines, carries (lattice) and pixels.
+// Line and pixel steps of the longest iteration: lines, carries (lattice) and pixels, those included that are stepped
+// over left of the screen, where triangles reach as far as the screen is wide.
 std::uint64_t longest_iteration(const SpanUnitParameters& parameters, std::uint64_t columns, std::uint64_t lines);
 
 }  // namespace rastertlm::span_unit

@@ -79,9 +79,13 @@ void SpanUnitModule::draw(LoadPayload& payload, sc_core::sc_time& delay) {
   ++loads_received_;
   words_loaded_ += payload.words;
   if (dealt_) return;
-  const std::uint64_t there = std::max(clock_.cycles_at(written).count(), free_);
+  const auto load_cycles = static_cast<std::uint64_t>(parameters_.load_cycles);
+  const std::uint64_t there = std::max(clock_.cycles_at(written).count() + load_cycles, free_);
   const std::uint64_t start = std::max(there, buffer_free_);
-  occupancy_.starved += there - free_;
+  // A load that waited in shadow registers costs nothing.
+  const std::uint64_t loading = std::min(load_cycles, there - free_);
+  occupancy_.busy += loading;
+  occupancy_.starved += there - free_ - loading;
   occupancy_.blocked += start - there;
   blocked_by_buffer_ += start - there;
   starts_ps_.push_back(clock_.picoseconds(Cycles(start)));
@@ -92,16 +96,14 @@ void SpanUnitModule::draw(LoadPayload& payload, sc_core::sc_time& delay) {
 
 void SpanUnitModule::draw_from(std::uint64_t cycle, const TriangleLoad& load) {
   const DrawnLines drawn = unit_.draw(load);
-  const auto load_cycles = static_cast<std::uint64_t>(parameters_.load_cycles);
   const auto line_change = static_cast<std::uint64_t>(parameters_.line_change_cycles);
   const std::uint64_t changes = drawn.spans.empty() ? 0 : (drawn.spans.size() - 1) * line_change;
-  occupancy_.busy += load_cycles + changes + drawn.cycles;
+  occupancy_.busy += changes + drawn.cycles;
   if (memory_keeps_up_) {
     store(clock_.picoseconds(Cycles(cycle)), drawn, load);
-    free_ = cycle + load_cycles + changes + drawn.cycles;
+    free_ = cycle + changes + drawn.cycles;
     return;
   }
-  cycle += load_cycles;
   for (const Span& span : drawn.spans) {
     if (&span != drawn.spans.data()) cycle += line_change;
     const std::uint64_t end = cycle + span.cycles;

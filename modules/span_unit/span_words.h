@@ -63,6 +63,7 @@ struct HalfTriangle {
 struct TriangleLoad {
   std::array<HalfTriangle, 2> halves;
   std::size_t count = 0;
+  bool wraps = false;           // prestep: a slope is more than its register holds as a signed number
   bool second_goes_on = false;  // with the start edge and its registers; otherwise with the end edge
   std::uint32_t object = 0;     // observer: from 1
   std::uint32_t material = 0;   // observer

@@ -10,6 +10,7 @@
 #include "modules/host/set_up_work.h"
 #include "modules/host/software_renderer.h"
 #include "modules/set_up/parameters.h"
+#include "modules/set_up/word_format.h"
 #include "modules/span_unit/parameters.h"
 #include "modules/video/parameters.h"
 #include "src/base/errors.h"
@@ -40,9 +41,14 @@ struct Machine {
     return {static_cast<std::size_t>(video.columns), static_cast<std::size_t>(video.lines)};
   }
   host::SetUpFormat set_up_format() const;
+  // Depth from near to far on this screen.
+  set_up::WordFormat depth_format() const;
   // Numbers of triangles are stored for ties where several units draw in an order of their own.
   bool stores_numbers() const { return span_unit.units > 1 && span_unit.share == span_unit::Share::triangles; }
   frame_store::MemoryLayout layout() const;
+
+ private:
+  void check_depth(Diagnostics& diagnostics, const std::string& file) const;
 };
 
 }  // namespace rastertlm::quadratic

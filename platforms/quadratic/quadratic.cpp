@@ -52,6 +52,7 @@ frame_store::FrameStore::Format store_format(const Machine& machine, const scene
   for (std::size_t c = 0; c < 3; ++c)
     format.background[c] = static_cast<std::uint8_t>(scene.background[static_cast<int>(c)]);
   format.pixels = span_unit::pixel_format(machine.span_unit);
+  format.ties = machine.stores_numbers();
   using Keep = frame_store::FrameStore::Keep;
   format.keep = observe ? Keep::everything : (machine.stores_numbers() ? Keep::numbers : Keep::nothing);
   return format;

@@ -27,6 +27,12 @@ std::uint64_t most_steps(const quadratic::Machine& m) {
                                       static_cast<std::uint64_t>(m.video.lines));
 }
 
+double fraction_bound(const quadratic::Machine& m) {
+  const std::uint64_t steps = most_steps(m);
+  return m.set_up.linear() ? span_unit::linear_fraction_bound(m.span_unit.fraction_bits, steps)
+                           : span_unit::fraction_bound(m.span_unit.fraction_bits, steps);
+}
+
 // Of the slowest frame of the run, unit by unit.
 FrameLoad largest_load(const Quadratic& platform) {
   FrameLoad most;
@@ -142,11 +148,13 @@ std::vector<Budget> quadratic_budgets(const Quadratic& platform) {
   budgets.push_back(budget("span_unit.screen", 1e-3 * pixel_ns(m) * screen, kMicroseconds / m.video.refresh_hz, "us",
                            "000/001, section 7: the whole screen once, a pixel a clock",
                            "span_unit.clock_ns, span_unit.pixel_cycles, span_unit.units, video.*", false));
-  if (m.set_up.method != ShadingMethod::gouraud)
-    budgets.push_back(budget("span_unit.fraction", span_unit::fraction_bound(m.span_unit.fraction_bits, most_steps(m)),
-                             0.5, "levels",
-                             "2^-(bits + 1) (k^2 + k + 2) / 2, k the steps across the whole screen (proved, attained)",
-                             "span_unit.fraction_bits, video.*", false));
+  budgets.push_back(budget("span_unit.fraction", fraction_bound(m), 0.5, "levels",
+                           m.set_up.linear()
+                               ? "2^-(bits + 1) (k + 1), k the steps from the left of the screen across it "
+                                 "(proved, attained)"
+                               : "2^-(bits + 1) (k^2 + k + 2) / 2, k the steps from the left of the screen "
+                                 "across it (proved, attained)",
+                           "span_unit.fraction_bits, set_up.method, video.*", false));
   return budgets;
 }
 
@@ -179,9 +187,9 @@ Answer quadratic_answer(const Quadratic& platform, const std::vector<Budget>& bu
 std::vector<std::string> quadratic_warnings(const Quadratic& platform) {
   std::vector<std::string> warnings;
   const quadratic::Machine& m = platform.machine();
-  const double bound = span_unit::fraction_bound(m.span_unit.fraction_bits, most_steps(m));
+  const double bound = fraction_bound(m);
   constexpr double kHalfALevel = 0.5;
-  if (m.set_up.method != ShadingMethod::gouraud && bound > kHalfALevel)
+  if (bound > kHalfALevel)
     warnings.push_back(
         fmt::format("{} fraction bits may be off by {:.3g} levels across the screen (span_unit.fraction_bits)",
                     m.span_unit.fraction_bits, bound));
@@ -189,6 +197,7 @@ std::vector<std::string> quadratic_warnings(const Quadratic& platform) {
   for (const quadratic::ShownFrame& frame : platform.frames()) {
     all.colour += frame.set_up.counts.colour;
     all.lighting += frame.set_up.counts.lighting;
+    all.wraps += frame.set_up.counts.wraps;
   }
   const auto tell = [&](std::uint64_t count, const char* what) {
     if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));
@@ -196,6 +205,7 @@ std::vector<std::string> quadratic_warnings(const Quadratic& platform) {
   tell(all.colour.flat_undefined, "triangles are drawn in one colour: the solver had no answer for them");
   tell(all.colour.flat_low, "triangles lower than 1/64 pixel are drawn in one colour");
   tell(all.colour.at_limit, "triangles are split no further, and off by more than highlight_test.threshold_levels");
+  tell(all.wraps, "triangles have slopes that the registers do not hold as signed numbers: prestep shows other pixels");
   tell(all.lighting.clamped_knots, "colours at points are beyond the levels and clamped");
   tell(all.lighting.not_finite, "colours at points are no numbers and taken as black");
   return warnings;

@@ -40,7 +40,7 @@ TEST_F(QuadraticInputTest, WordsThatDoNotHoldTheirFraction) {
 }
 TEST_F(QuadraticInputTest, DepthThatOverflowsItsRegister) {
   refused("[span_unit]\ndepth_bits = 28\n",
-          {"span_unit.depth_fraction_bits: ", "more than the 32 of a depth register"});
+          {"span_unit.depth_fraction_bits: ", "more than the 32 of a depth register; at most 4 are accepted"});
 }
 TEST_F(QuadraticInputTest, MethodsOfOtherPlatforms) {
   refused("[set_up]\nmethod = \"phong\"\n", {"machine.toml:7: set_up.method: ", "offered by: adaptive"});
@@ -48,7 +48,8 @@ TEST_F(QuadraticInputTest, MethodsOfOtherPlatforms) {
 }
 TEST_F(QuadraticInputTest, InterlacedVideoAndAccessTimes) {
   refused("interlaced = true\n[frame_store]\naccess_ns = 10.00001\n",
-          {"video.interlaced: ", "frame_store.access_ns: is no whole number of picoseconds"});
+          {"video.interlaced: ",
+           "frame_store.access_ns: 10.00001 ns is no whole number of picoseconds; the nearest that is accepted is 10"});
 }
 TEST_F(QuadraticInputTest, FixedFormatsThatItHasNot) {
   refused("[set_up]\narithmetic = \"fixed\"\nfixed_fraction_bits = 30\n",

@@ -58,6 +58,7 @@ FrameStore::Format format() {
   format.lines = kLines;
   format.farthest = 0xFFFFFF;
   format.background = {1, 2, 3};
+  format.ties = true;
   return format;
 }
 
@@ -109,6 +110,41 @@ TEST_P(FrameStoreTest, KeepsTheNearestInAnyOrder) {
     EXPECT_EQ(store.counters().fragments_kept, kept);
     EXPECT_EQ(store.counters().fragments_hidden, in - kept);
   }
+}
+
+// Without numbers in the machine's store the first of equal depths stays, whoever observes what else.
+TEST_P(FrameStoreTest, KeepsTheFirstOfEqualDepthsWithoutNumbers) {
+  std::vector<Drawn> drawn = spans(300);
+  std::shuffle(drawn.begin(), drawn.end(), random_);
+  std::vector<std::uint64_t> kept;
+  for (const FrameStore::Keep keep : {FrameStore::Keep::nothing, FrameStore::Keep::everything}) {
+    FrameStore::Format with = format();
+    with.ties = false;
+    with.keep = keep;
+    FrameStore store({}, with, GetParam());
+    store.clear();
+    std::vector<std::uint32_t> depth(kColumns * kLines, 0xFFFFFF), levels(depth.size(), 0x030201);
+    for (const Drawn& d : drawn) {
+      store.draw({&d.span, 1}, d.object, 0);
+      for (std::uint32_t x = 0; x < d.span.count; ++x) {
+        const std::size_t at = d.span.line * kColumns + d.span.column + x;
+        if (d.depths[x] >= depth[at]) continue;
+        depth[at] = d.depths[x];
+        levels[at] = d.levels[x];
+      }
+    }
+    store.swap();
+    frame::RgbLine rgb;
+    rgb.resize(kColumns);
+    for (std::uint32_t line = 0; line < kLines; ++line) {
+      store.scan_out(line, rgb);
+      for (std::uint32_t x = 0; x < kColumns; ++x)
+        ASSERT_EQ(rgb.levels[3 * x] | rgb.levels[3 * x + 1] << 8 | rgb.levels[3 * x + 2] << 16,
+                  levels[line * kColumns + x]);
+    }
+    kept.push_back(store.counters().fragments_kept);
+  }
+  EXPECT_EQ(kept[0], kept[1]);
 }
 
 // One pixel after the other, in the order in which they come.

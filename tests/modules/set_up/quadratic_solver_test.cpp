@@ -81,7 +81,7 @@ TEST(QuadraticSolver, LinearIsTheQuadraticOfLinearColours) {
     const Rational half = Rational::of(1, 2);
     const SixColours<Rational> colours{i1, i2, i3, (i1 + i2) * half, (i1 + i3) * half, (i2 + i3) * half};
     ASSERT_TRUE(same(one(Solver::barycentric, at, colours),
-                     BarycentricSolver<Rational>(at.x2, at.y2, at.x3, at.y3).solve_linear(i1, i2, i3)));
+                     LinearSolver<Rational>(at.x2, at.y2, at.x3, at.y3).solve(i1, i2, i3)));
   }
 }
 
@@ -296,6 +296,24 @@ TEST(QuadraticSolver, FixedNumbersSayWhereTheyDoNotReach) {
       one(Solver::barycentric, Offsets<Fixed>{Fixed(100), Fixed(0), Fixed(50), Fixed(0)}, six<Fixed>(levels))));
   EXPECT_FALSE(is_defined(
       one(Solver::barycentric, Offsets<Fixed>{Fixed(1e6), Fixed(0), Fixed(0), Fixed(1e6)}, six<Fixed>(levels))));
+}
+
+// Against exact rational arithmetic, of all signs.
+TEST(FixedNumber, QuotientsAndProductsAreNearest) {
+  std::mt19937_64 random(5);
+  constexpr double kOne = 65536.0;
+  const auto raw = [&] { return std::uniform_int_distribution<std::int64_t>(-3'000'000, 3'000'000)(random); };
+  for (int round = 0; round < 5000; ++round) {
+    const std::int64_t a = raw(), b = raw();
+    if (b == 0) continue;
+    const FixedNumber<16> x(static_cast<double>(a) / kOne), y(static_cast<double>(b) / kOne);
+    // |q b - a 2^16| <= b / 2, with ties upwards; in integers.
+    const auto q = static_cast<std::int64_t>((x / y).to_double() * kOne);
+    const std::int64_t off = a * 65536 - q * b;
+    ASSERT_LE(2 * std::abs(off), std::abs(b)) << a << " / " << b;
+    const auto p = static_cast<std::int64_t>((x * y).to_double() * kOne);
+    ASSERT_LE(2 * std::abs(a * b - p * 65536), 65536) << a << " * " << b;
+  }
 }
 
 }  // namespace

@@ -167,6 +167,56 @@ TEST_F(SpanLoad, ErrsNoMoreThanItsFractionBitsAllow) {
   }
 }
 
+// Pixels left of the screen are stepped over and their rounding adds up: the bound counts them.
+TEST_F(SpanLoad, ErrsNoMoreLeftOfTheScreen) {
+  span_unit::SpanUnitParameters parameters;
+  parameters.fraction_bits = 8;
+  parameters.word_bits = 30;
+  const double on_screen = span_unit::fraction_bound(8, kColumns + 2 * kLines);
+  const double bound = span_unit::fraction_bound(8, span_unit::longest_iteration(parameters, kColumns, kLines));
+  double largest = 0.0;
+  for (const double sign : {-1.0, 1.0}) {
+    ColourTriangle t;
+    t.fraction_bits = 4;
+    t.corners = {{{-160 * 16, 0}, {160 * 16, 0}, {-162 * 16, 120 * 16 - 8}}};
+    // Every constant is 0.49 of its last place away from what its word holds.
+    for (auto& form : t.colour) {
+      const double off = sign * 0.49 / 256.0;
+      form.t0 = 128.0 - 0.5 + off;
+      form.t5 = off / 2;
+      form.t2 = form.t5;
+      form.t4 = off;
+      form.t3 = off / 2;
+      form.t1 = off;
+    }
+    draw(t, parameters, [&](const span_unit::Span& span, const rastertlm::test::SpanPixels& pixels) {
+      for (std::uint32_t x = 0; x < span.count; ++x) {
+        const double exact = t.colour[0].at(span.column + x + 160.0, span.line);
+        if (exact < 0.0 || exact > 255.0) continue;
+        largest = std::max(largest, std::fabs(static_cast<double>(pixels.levels[x] & 0xFFU) - exact) - 0.5);
+      }
+    });
+  }
+  EXPECT_GT(largest, on_screen / 2);
+  EXPECT_LE(largest, bound);
+}
+
+// A sliver's colours change by hundreds of levels a pixel: sums wrap without harm, a prestep's products do not.
+TEST_F(SpanLoad, TellsWhereAPrestepCannotMultiply) {
+  ColourTriangle t;
+  t.fraction_bits = 4;
+  t.corners = {{{0, 0}, {1, 1600}, {0, 3200}}};
+  t.colour[1].t2 = 4000.0;
+  span_unit::SpanUnitParameters parameters;
+  EXPECT_FALSE(span_load(t, SpanFormat::of(parameters, kLines)).wraps);
+  parameters.start_edge = span_unit::StartEdge::prestep;
+  EXPECT_TRUE(span_load(t, SpanFormat::of(parameters, kLines)).wraps);
+  t.colour[1].t2 = 2000.0;  // 12.20: below 2048
+  EXPECT_FALSE(span_load(t, SpanFormat::of(parameters, kLines)).wraps);
+  t.depth = {0.0, 9'000'000.0, 0.0};  // 24.8: below 2^23 a pixel
+  EXPECT_TRUE(span_load(t, SpanFormat::of(parameters, kLines)).wraps);
+}
+
 TEST_F(SpanLoad, DepthErrsByHalfABitAStep) {
   for (int round = 0; round < 300; ++round) {
     ColourTriangle t = triangle();

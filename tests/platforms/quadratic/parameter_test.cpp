@@ -1,6 +1,7 @@
 // Every parameter of the quadratic machine moves something, the picture or a figure of the report, or is refused.
 #include <map>
 
+#include "platforms/quadratic/machine.h"
 #include "tests/platforms/imogene/simulation.h"
 
 namespace rastertlm::test {
@@ -113,6 +114,34 @@ TEST(Parameters, OfTheQuadraticMachineMoveSomething) {
     }
   }
   EXPECT_GT(tried, 45U);
+}
+
+// Margins of 257 units on both sides of the depths of 512 x 512: 8 bits hold nothing between, 9 hold near behind far.
+TEST(Parameters, DepthsThatAScreenHasNoRoomForAreRefused) {
+  const auto refused = [](std::int64_t bits, std::int64_t fraction_bits) {
+    quadratic::Machine machine;
+    machine.span_unit.depth_bits = bits;
+    machine.span_unit.depth_fraction_bits = fraction_bits;
+    Diagnostics diagnostics;
+    machine.check(diagnostics, "machine.toml");
+    try {
+      diagnostics.throw_if_any();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const std::int64_t bits : {8, 9})
+    EXPECT_NE(refused(bits, 8).find("span_unit.depth_bits: " + std::to_string(bits) +
+                                    " bits hold no depth on a screen of 512 x 512, whose margins are 257 units on both "
+                                    "sides; at least 10 are accepted"),
+              std::string::npos)
+        << refused(bits, 8);
+  EXPECT_EQ(refused(10, 8), "");
+  // 2048 steps of half a unit, a quarter, an eighth.
+  EXPECT_NE(refused(24, 0).find("at least 2 are accepted"), std::string::npos) << refused(24, 0);
+  EXPECT_NE(refused(24, 1).find("span_unit.depth_fraction_bits"), std::string::npos);
+  EXPECT_EQ(refused(24, 2), "");
 }
 
 // Two runs, and every vector variant, give the same bytes.
