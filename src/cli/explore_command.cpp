@@ -145,8 +145,10 @@ ExitCode ExploreCommand::run_sweep() {
   RunStatus status;
   {
     explore::Store store(file, resume_ ? explore::Store::Opening::resume : explore::Store::Opening::fresh);
+    store.forget_front();
     ExploreProgress progress;
     status = explore::run_sweep(sweep, design, store, options, [&](const RunStatus& now) { progress.show(now); });
+    if (status.signal == 0) store.keep_front();
   }
   return end_of(status, file);
 }

@@ -113,6 +113,7 @@ void merge_stores(const std::string& out, const std::vector<std::string>& stores
     }
     Statement shown(joined.database(), "UPDATE sweep SET entered = 1 WHERE digest = ?");
     shown.bind(1, digest).run();
+    joined.keep_front();
     joined.database().text("PRAGMA journal_mode = DELETE");  // one file
   } catch (...) {
     remove_store(partial);

@@ -71,6 +71,10 @@ class Store {
 
   // The sweep that was entered last. Throws InputError where there is none.
   SweepTable table();
+  // Writes the table `front` of that sweep: a row for each point that front.h compares, by number, and of the front's
+  // points the first that beats it, null for the front itself. It is what the store holds now: a run forgets it first.
+  void keep_front();
+  void forget_front();
 
   Database& database() { return database_; }
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <vector>
 
 #include "src/base/errors.h"
@@ -175,13 +176,30 @@ std::optional<double> number(const Json& value) {
   return std::nullopt;
 }
 
-std::optional<double> folded(Fold fold, const std::vector<Reached>& found) {
+// JSON has no infinity, so the PSNR of pictures that do not differ is null there; where nothing was compared there is
+// none.
+bool is_infinite(const Reached& one, const std::string& key) {
+  if (!one.value->is_null() || !key.starts_with("psnr") || !one.parent->is_object()) return false;
+  double pixels = 0.0;
+  for (const char* part : {"compared", "covered_missing", "covered_extra"}) {
+    const bool counts = key != "psnr_db" || std::string_view(part) == "compared";
+    if (counts && one.parent->contains(part)) pixels += number((*one.parent)[part]).value_or(0.0);
+  }
+  return pixels > 0.0;
+}
+
+std::optional<double> figure(const Reached& one, const std::string& key) {
+  if (is_infinite(one, key)) return std::numeric_limits<double>::infinity();
+  return number(*one.value);
+}
+
+std::optional<double> folded(Fold fold, const std::vector<Reached>& found, const std::string& key) {
   double sum = 0.0;
   double least = std::numeric_limits<double>::infinity();
   double most = -least;
   std::size_t count = 0;
   for (const Reached& one : found) {
-    const std::optional<double> value = number(*one.value);
+    const std::optional<double> value = figure(one, key);
     if (!value) {
       if (fold == Fold::sum || fold == Fold::mean) return std::nullopt;
       continue;
@@ -267,8 +285,9 @@ std::optional<double> Figures::value(const std::string& text) const {
   const std::optional<Path> path = path_of(text);
   if (!path) return std::nullopt;
   const std::vector<Reached> found = reached(content_->json, *path);
-  if (path->fold != Fold::none) return folded(path->fold, found);
-  return found.empty() ? std::nullopt : number(*found.front().value);
+  const std::string& key = path->steps.back().key;
+  if (path->fold != Fold::none) return folded(path->fold, found, key);
+  return found.empty() ? std::nullopt : figure(found.front(), key);
 }
 
 std::string Figures::unit(const std::string& text) const {

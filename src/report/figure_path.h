@@ -4,7 +4,8 @@
 //   images[0].error.rmse_level           the element at that place, from 0
 //   sum(memories[].total_bits)           over all elements; sum, mean, min or max
 //   sum(logic[unit=pins].count)          over the elements whose key has that value
-// A truth is 1 or 0. min and max leave out what is null; sum and mean are none where anything is.
+// A truth is 1 or 0; the PSNR of equal pictures, null in the file, is infinite. min and max leave out what is null; sum
+// and mean are none where anything is.
 #pragma once
 
 #include <memory>

@@ -53,6 +53,36 @@ TEST_F(ShowTest, WritesTablesForPrograms) {
   EXPECT_THAT(steps, HasSubstr("\ndecision_unit.topology,pipeline,tree,known,3,"));
 }
 
+// Number and beater, -1 for none, as SQL reads them.
+std::map<std::int64_t, std::int64_t> kept_front(const std::string& store) {
+  explore::Database database(store, explore::Database::Access::existing);
+  explore::Statement row(database, "SELECT number, coalesce(beaten_by, -1) FROM front");
+  std::map<std::int64_t, std::int64_t> kept;
+  while (row.step()) kept[row.integer(0)] = row.integer(1);
+  return kept;
+}
+
+TEST_F(ShowTest, KeepsTheFrontInTheStore) {
+  const explore::SweepTable found = table();
+  const explore::Front front = explore::find_front(found);
+  std::map<std::int64_t, std::int64_t> expected;
+  for (std::size_t i = 0; i < found.rows.size(); ++i) {
+    const auto& by = front.beaten_by[i];
+    expected[static_cast<std::int64_t>(found.rows[i].number)] =
+        by ? static_cast<std::int64_t>(found.rows[*by].number) : -1;
+  }
+  ASSERT_EQ(expected.size(), 6U);
+  EXPECT_EQ(kept_front(in_work("s.sqlite")), expected);
+  // A share knows the front of its own points; joined, they have that of all.
+  for (const char* share : {"1/2", "2/2"})
+    ASSERT_EQ(run({"explore", "run", "sweep.toml", "--store", fmt::format("{}.sqlite", share[0]), "--shard", share})
+                  .exit_code,
+              0);
+  EXPECT_EQ(kept_front(in_work("1.sqlite")).size(), 3U);
+  ASSERT_EQ(run({"explore", "merge", "joined.sqlite", "1.sqlite", "2.sqlite"}).exit_code, 0);
+  EXPECT_EQ(kept_front(in_work("joined.sqlite")), expected);
+}
+
 TEST_F(ShowTest, RefusesPointsThatHaveNoFigures) {
   const Outcome none = run({"explore", "show", "s.sqlite", "--point", "6"});
   EXPECT_EQ(none.exit_code, 2);

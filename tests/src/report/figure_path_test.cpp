@@ -77,5 +77,28 @@ TEST(FigurePath, SaysWhatAReportLacks) {
   EXPECT_THROW(Figures("not json", "x.json"), InputError);
 }
 
+// As compare() has it: a picture without a difference, one without a common pixel, one that lacks a pixel, one apart.
+constexpr const char* kPictures = R"({"images": [
+  {"error": {"compared": 9, "covered_missing": 0, "covered_extra": 0, "psnr_db": null, "psnr_outline_db": null}},
+  {"error": {"compared": 0, "covered_missing": 0, "covered_extra": 0, "psnr_db": null, "psnr_outline_db": null}},
+  {"error": {"compared": 0, "covered_missing": 1, "covered_extra": 0, "psnr_db": null, "psnr_outline_db": 20.5}},
+  {"host_slack_us": null,
+   "error": {"compared": 9, "covered_missing": 0, "covered_extra": 1, "psnr_db": 45.5, "psnr_outline_db": 30.25}}]})";
+
+TEST(FigurePath, TakesThePsnrOfEqualPicturesAsInfinite) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const Figures figures(kPictures, "report.json");
+  EXPECT_EQ(figures.value("images[0].error.psnr_db"), kInfinite);
+  EXPECT_EQ(figures.value("images[0].error.psnr_outline_db"), kInfinite);
+  EXPECT_EQ(figures.value("images[1].error.psnr_db"), std::nullopt);
+  EXPECT_EQ(figures.value("images[1].error.psnr_outline_db"), std::nullopt);
+  EXPECT_EQ(figures.value("images[2].error.psnr_db"), std::nullopt);
+  EXPECT_EQ(figures.value("images[2].error.psnr_outline_db"), 20.5);
+  EXPECT_EQ(figures.value("images[3].error.psnr_db"), 45.5);
+  EXPECT_EQ(figures.value("images[3].host_slack_us"), std::nullopt);
+  EXPECT_EQ(figures.value("min(images[].error.psnr_db)"), 45.5);
+  EXPECT_EQ(figures.value("max(images[].error.psnr_db)"), kInfinite);
+}
+
 }  // namespace
 }  // namespace rastertlm::report
