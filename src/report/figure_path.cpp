@@ -294,7 +294,7 @@ std::string Figures::unit(const std::string& text) const {
   const std::optional<Path> path = path_of(text);
   if (!path) return {};
   const std::vector<Reached> found = reached(content_->json, *path);
-  const std::string fixed = figure_unit(text);
+  std::string fixed = figure_unit(text);
   if (!fixed.empty() || found.empty()) return fixed;
   // "used" and "count" stand in the element whose unit it is.
   const std::string& key = path->steps.back().key;

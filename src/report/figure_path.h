@@ -18,10 +18,10 @@ namespace rastertlm::report {
 
 // What is wrong with a path, known before there is any report: a sentence that names the nearest figure; "" if nothing.
 // Names of elements depend on the machine: see Figures::absent().
-std::string figure_mistake(const std::string& path);
+std::string figure_mistake(const std::string& text);
 
 // The unit that the figure always has; "" where it has none, or where each element of the list names its own.
-std::string figure_unit(const std::string& path);
+std::string figure_unit(const std::string& text);
 
 class Figures {
  public:
@@ -34,12 +34,12 @@ class Figures {
   // The report.json that they are of.
   std::string json() const;
   // None where the report has no such figure, or null. The path is one without figure_mistake().
-  std::optional<double> value(const std::string& path) const;
+  std::optional<double> value(const std::string& text) const;
   // With the unit that stands beside the figure, where its elements name their own.
-  std::string unit(const std::string& path) const;
+  std::string unit(const std::string& text) const;
   // Why the report cannot have the figure: no element of that name (the nearest is named), or it is text; "" where it
   // has it, were it null.
-  std::string absent(const std::string& path) const;
+  std::string absent(const std::string& text) const;
 
  private:
   struct Content;

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "src/base/errors.h"
 
 namespace rastertlm::report {
