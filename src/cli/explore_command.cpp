@@ -14,9 +14,11 @@
 #include "src/explore/store.h"
 #include "src/explore/sweep.h"
 #include "src/explore/sweep_csv.h"
+#include "src/explore/sweep_page.h"
 #include "src/explore/sweep_text.h"
 #include "src/explore/table_text.h"
 #include "src/report/number_text.h"
+#include "src/report/text_file.h"
 
 namespace rastertlm::cli {
 namespace {
@@ -106,6 +108,7 @@ void ExploreCommand::declare_show(CLI::App& app) {
   validated(app.add_option("--rows", rows_, "rows of a table at most")->capture_default_str()->type_name("N"),
             whole_from_one);
   std::vector<CLI::Option*> forms{
+      validated(app.add_option("--html", html_, "write a page to look at instead")->type_name("FILE"), not_empty),
       app.add_flag("--list", list_, "the points in their order instead"),
       app.add_flag("--csv", csv_, "the points as CSV, with the front and what it beats"),
       app.add_flag("--csv-sensitivity", csv_sensitivity_, "how parameters move the objectives, as CSV"),
@@ -187,7 +190,12 @@ std::string ExploreCommand::shown(const explore::SweepTable& table) const {
 
 ExitCode ExploreCommand::show() {
   const explore::SweepTable table = explore::Store(store_, explore::Store::Opening::look).table();
-  std::fputs(shown(table).c_str(), stdout);
+  if (html_.empty()) {
+    std::fputs(shown(table).c_str(), stdout);
+  } else {
+    report::write_whole_file(html_, explore::sweep_page(table));
+    std::fputs((html_ + '\n').c_str(), stdout);
+  }
   return ExitCode::kDone;
 }
 

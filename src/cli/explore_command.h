@@ -42,6 +42,7 @@ class ExploreCommand : public Command {
   bool csv_sensitivity_ = false;
   bool csv_steps_ = false;
   bool list_ = false;
+  std::string html_;
   std::optional<std::uint64_t> point_;
   double tolerance_ = 0.0;
   std::size_t rows_ = 40;

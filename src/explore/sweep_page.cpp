@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include "src/explore/page_assets.h"
@@ -19,8 +21,6 @@ namespace {
 using report::json_string;
 
 constexpr std::size_t kDigestDigits = 12;  // enough to find a point in the store
-
-std::size_t bytes_in_page(const Row& row) { return (row.thumbnail.size() + 2) / 3 * 4; }
 
 // `most` of the rows, evenly spread: the first and the last among them.
 std::vector<std::size_t> spread(const std::vector<std::size_t>& rows, std::size_t most) {
@@ -91,20 +91,35 @@ std::vector<std::size_t> numbers_below(std::size_t count) {
   return numbers;
 }
 
+// Many points show the same: each picture is embedded once.
+struct Thumbnails {
+  Thumbnails(const SweepTable& table, const std::vector<std::size_t>& rows) {
+    std::map<std::string, std::size_t> known;
+    for (const std::size_t r : rows) {
+      const std::string png = report::base64(table.rows[r].thumbnail);
+      const auto [found, is_new] = known.emplace(png, pictures.size());
+      if (is_new) pictures.push_back(png);
+      numbers.emplace_back(r, found->second);
+    }
+  }
+  std::vector<std::string> pictures;
+  std::vector<std::pair<std::size_t, std::size_t>> numbers;  // row and picture
+};
+
 std::string data_json(const SweepTable& table, const Front& front, const std::vector<std::string>& notes) {
   const Names names(table);
+  const Thumbnails thumbnails(table, rows_with_thumbnail(table, front));
   return fmt::format(
-      R"({{"axes":{},"objectives":{},"constraints":{},"rows":{},"baseline":{},"thumbnails":{},"notes":{},"sensitivity":{}}})",
+      R"({{"axes":{},"objectives":{},"constraints":{},"rows":{},"baseline":{},"pictures":{},"thumbnails":{},"notes":{},"sensitivity":{}}})",
       json_list(numbers_below(table.axes.size()), [&](auto a) { return axis_json(table.axes[a], names.axes[a]); }),
       json_list(numbers_below(table.objectives.size()),
                 [&](auto o) { return objective_json(table.objectives[o], names.objectives[o]); }),
       json_texts(table.constraints),
       json_list(numbers_below(table.rows.size()), [&](auto r) { return row_json(table, front, r); }),
-      table.baseline ? std::to_string(*table.baseline) : "null",
-      json_list(rows_with_thumbnail(table, front),
-                [&](auto r) {
-                  return fmt::format(R"({{"row":{},"png":"{}"}})", r, report::base64(table.rows[r].thumbnail));
-                }),
+      table.baseline ? std::to_string(*table.baseline) : "null", json_texts(thumbnails.pictures),
+      json_list(
+          thumbnails.numbers,
+          [](const auto& number) { return fmt::format(R"({{"row":{},"picture":{}}})", number.first, number.second); }),
       json_texts(notes), json_string(sensitivity_section(table, find_sensitivity(table))));
 }
 
@@ -138,8 +153,10 @@ std::vector<std::size_t> rows_with_thumbnail(const SweepTable& table, const Fron
   wanted.insert(wanted.end(), others.begin(), others.end());
   std::size_t bytes = 0;
   std::vector<std::size_t> rows;
+  std::set<std::string> embedded;
   for (const std::size_t r : wanted) {
-    bytes += bytes_in_page(table.rows[r]);
+    const std::string png = report::base64(table.rows[r].thumbnail);
+    if (embedded.insert(png).second) bytes += png.size();
     if (bytes > kMostThumbnailBytes) break;
     rows.push_back(r);
   }

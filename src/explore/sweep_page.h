@@ -15,7 +15,8 @@ inline constexpr std::size_t kMostOtherThumbnails = 100;       // beside the fro
 inline constexpr std::size_t kMostThumbnailBytes = 3'600'000;  // of the page, which stays below 5 MB with 1,000 points
 
 // Rows whose thumbnails a page has, in the table's order: the baseline, the front and, evenly spread over the others
-// that have one, at most kMostOtherThumbnails; as far as kMostThumbnailBytes reach, in that order.
+// that have one, at most kMostOtherThumbnails; as far as kMostThumbnailBytes reach, in that order. Equal pictures are
+// embedded once.
 std::vector<std::size_t> rows_with_thumbnail(const SweepTable& table, const Front& front);
 
 // One file that asks nothing of a network; the same bytes for the same table. Throws as find_front does.

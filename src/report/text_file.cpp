@@ -64,6 +64,20 @@ void write_text_file(const std::string& path, const std::string& text) {
   if (file.close() != 0) throw OutputError(output_message(path, errno));
 }
 
+void write_whole_file(const std::string& path, const std::string& text) {
+  struct stat status {};
+  // A device or a pipe has no place beside it.
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return write_text_file(path, text);
+  const std::string partial = fmt::format("{}.partial-{}", path, ::getpid());
+  try {
+    write_text_file(partial, text);
+    if (::rename(partial.c_str(), path.c_str()) != 0) throw OutputError(output_message(path, errno));
+  } catch (...) {
+    ::unlink(partial.c_str());
+    throw;
+  }
+}
+
 TextFileWriter::TextFileWriter(const std::string& path) : path_(path), descriptor_(open_to_write(path)) {}
 
 TextFileWriter::~TextFileWriter() {

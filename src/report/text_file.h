@@ -13,6 +13,9 @@ namespace rastertlm::report {
 // Makes or overwrites the file. Throws OutputError with the path and the reason.
 void write_text_file(const std::string& path, const std::string& text);
 
+// The same, but the file is there as a whole or stays as it was: it is written beside its place, and put there.
+void write_whole_file(const std::string& path, const std::string& text);
+
 // A file that is written piece by piece through a buffer, with the digest of its bytes. It is whole when close() has
 // returned.
 class TextFileWriter {

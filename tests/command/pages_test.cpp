@@ -35,6 +35,32 @@ TEST_F(PagesTest, RunOfTheQuadraticMachine) {
   expect_good_page("o", "run_quadratic");
 }
 
+TEST_F(PagesTest, OfASweep) {
+  write("machine.toml", kSmallMachine);
+  write("scene.toml", one_triangle());
+  write("sweep.toml",
+        "schema = 1\nquestion = \"Which?\"\nmachine = \"machine.toml\"\nscene = \"scene.toml\"\n"
+        "[[vary]]\npath = \"decision_unit.topology\"\nvalues = [\"tree\", \"pipeline\"]\n"
+        "[[vary]]\npath = \"host.preset\"\nvalues = [\"t800_20\", \"t9000\"]\n"
+        "[[objective]]\npath = \"answer.headroom\"\nsense = \"maximise\"\n"
+        "[[objective]]\npath = \"answer.latency_first_pixel_us\"\nsense = \"minimise\"\n");
+  const Outcome swept = run({"explore", "run", "sweep.toml", "--store", "s.sqlite", "--jobs", "1"});
+  ASSERT_EQ(swept.exit_code, 0) << swept.err;
+  const Outcome shown = run({"explore", "show", "s.sqlite", "--html", "sweep.html"});
+  ASSERT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_EQ(shown.out, "sweep.html\n");
+  const PageOutcome outcome =
+      check_page("check_sweep_page.py", {in_work("sweep.html"), RASTERTLM_ARTEFACTS, "sweep_small"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+  const std::string before = file_text(in_work("sweep.html"));
+  EXPECT_EQ(run({"explore", "show", "s.sqlite", "--html", "none/sweep.html"}).exit_code, 4);
+  constexpr rlim_t kTooSmall = 100'000;
+  EXPECT_EQ(run({"explore", "show", "s.sqlite", "--html", "sweep.html"}, kTooSmall).exit_code, 4);
+  EXPECT_TRUE(file_text(in_work("sweep.html")) == before) << "what was there stays";
+  EXPECT_EQ(names().count("sweep.html"), 1U);
+  for (const std::string& name : names()) EXPECT_EQ(name.find("partial"), std::string::npos) << name;
+}
+
 // A name that is a script stays a name, in the page and in the file.
 TEST_F(PagesTest, NamesAreNoScripts) {
   write("machine.toml", kSmallMachine);

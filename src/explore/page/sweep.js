@@ -21,7 +21,7 @@ const view = {
   chosen: page.baseline,
 };
 const rows = page.rows.map((row, index) => ({...row, index, met: row.allowed !== false}));
-const thumbnails = new Map(page.thumbnails.map((thumbnail) => [thumbnail.row, 'data:image/png;base64,' + thumbnail.png]));
+const thumbnails = new Map(page.thumbnails.map(({row, picture}) => [row, 'data:image/png;base64,' + page.pictures[picture]]));
 const passes = (row) => row.values.every((value, axis) => view.allowed[axis][value]);
 const isBaseline = (row) => row.index === page.baseline;
 
@@ -276,7 +276,8 @@ if (page.objectives.length > 0) scatterSection();
 filterSection();
 thumbnailSection();
 tableSection();
-section('How objectives move with parameters', element('div', {class: 'scroll'}, element('pre', {}, page.sensitivity)));
+const [title, , ...lines] = page.sensitivity.trim().split('\n');  // a heading, its rule, and what stands below
+if (title !== '') section(title, element('div', {class: 'scroll'}, element('pre', {}, lines.join('\n'))));
 pageIsWhole();
 scatter = Chart.getChart('scatter');
 if (scatter !== undefined) {

@@ -21,7 +21,8 @@ constexpr const char* kScript = "</script><script>window.intruder = 1</script>";
 
 // A PNG of 8 x 8 grey pixels, written by hand with Python's zlib, as large as a noisy one of 64 x 64 by zeros after its
 // end.
-std::vector<std::uint8_t> thumbnail(std::size_t bytes) {
+// `number` makes it unlike others.
+std::vector<std::uint8_t> thumbnail(std::size_t bytes, std::uint64_t number) {
   static constexpr std::uint8_t kPng[] = {
       0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
       0x00, 0x00, 0x08, 0x00, 0x00, 0x00, 0x08, 0x08, 0x00, 0x00, 0x00, 0x00, 0xe1, 0x64, 0xe1, 0x57, 0x00,
@@ -29,8 +30,9 @@ std::vector<std::uint8_t> thumbnail(std::size_t bytes) {
       0x28, 0x80, 0xd1, 0x0d, 0x0c, 0x50, 0x7a, 0x02, 0x03, 0x94, 0x5e, 0xc0, 0x00, 0xa5, 0x37, 0x30, 0x40,
       0xe9, 0x03, 0x0c, 0x50, 0xfa, 0x02, 0x03, 0x94, 0x7e, 0x00, 0x00, 0x1e, 0x75, 0x1c, 0x01, 0x9f, 0x44,
       0x8f, 0x6d, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-  std::vector<std::uint8_t> png(std::begin(kPng), std::end(kPng));
-  png.resize(std::max(png.size(), bytes), 0);  // after the last chunk
+  std::vector<std::uint8_t> png(std::max(std::size(kPng) + sizeof number, bytes), 0);
+  std::copy(std::begin(kPng), std::end(kPng), png.begin());
+  for (std::size_t k = 0; k < sizeof number; ++k) png[png.size() - 1 - k] = static_cast<std::uint8_t>(number >> 8 * k);
   return png;
 }
 
@@ -60,7 +62,7 @@ SweepTable thousand() {
       row.figures[1] = std::nullopt;
     }
     row.allowed = row.state == State::done && *row.figures[2] >= 12.0;
-    if (row.state == State::done) row.thumbnail = thumbnail(9'000);
+    if (row.state == State::done) row.thumbnail = thumbnail(9'000, row.number);
   }
   table.baseline = 999;
   return table;
@@ -68,7 +70,8 @@ SweepTable thousand() {
 
 TEST(SweepPage, PicturesOfBaselineFrontAndSomeOthers) {
   SweepTable table = thousand();
-  for (Row& row : table.rows) row.thumbnail.resize(row.thumbnail.empty() ? 0 : 300);
+  for (Row& row : table.rows)
+    if (row.state == State::done) row.thumbnail = thumbnail(300, row.number);
   const Front front = find_front(table);
   const std::vector<std::size_t> rows = rows_with_thumbnail(table, front);
   EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
@@ -81,10 +84,19 @@ TEST(SweepPage, PicturesOfBaselineFrontAndSomeOthers) {
 
 TEST(SweepPage, PicturesHaveALimitInBytes) {
   SweepTable table = thousand();
-  for (Row& row : table.rows) row.thumbnail.resize(row.state == State::done ? 120'000 : 0);
+  for (Row& row : table.rows)
+    if (row.state == State::done) row.thumbnail = thumbnail(120'000, row.number);
   const std::vector<std::size_t> rows = rows_with_thumbnail(table, find_front(table));
   EXPECT_EQ(rows.size(), kMostThumbnailBytes / 160'000) << "four characters for three bytes";
   EXPECT_EQ(std::count(rows.begin(), rows.end(), *table.baseline), 1) << "the baseline comes first";
+}
+
+TEST(SweepPage, EqualPicturesAreThereOnce) {
+  SweepTable table = thousand();
+  for (Row& row : table.rows)
+    if (row.state == State::done) row.thumbnail = thumbnail(120'000, row.number % 2);
+  EXPECT_GT(rows_with_thumbnail(table, find_front(table)).size(), kMostOtherThumbnails);
+  EXPECT_LT(sweep_page(table).size(), 1'000'000U);
 }
 
 TEST(SweepPage, IsTheSameTwiceAndHasNoScriptsOfOthers) {
