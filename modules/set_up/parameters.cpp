@@ -14,6 +14,7 @@ namespace {
 
 const Condition kQuadratics{"set_up.method", {"quadratic", "quadratic_adaptive"}};
 const Condition kAdaptive{"set_up.method", {"quadratic_adaptive"}};
+const Condition kPseudoPhong{"set_up.method", {"pseudo_phong"}};
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
@@ -51,6 +52,8 @@ void SetUpParameters::declare(parameter::Table& table) {
   table.choice("subdivision.coverage", child_coverage, {"parent", "snapped"},
                About{"", "Corners of children: exact midpoints, or moved to the grid, which may leave cracks.", picture,
                      kAdaptive});
+  table.integer("pseudo_phong.depth", halvings, {0, 6},
+                About{"halvings", "Of every edge: 4^depth Gouraud triangles a triangle.", host, kPseudoPhong});
 }
 
 void SetUpParameters::check(const std::string& file, Diagnostics& diagnostics) const {
@@ -58,7 +61,7 @@ void SetUpParameters::check(const std::string& file, Diagnostics& diagnostics) c
   if (traits.platform.find("quadratic") == std::string_view::npos)
     diagnostics.add({file, 0, "set_up.method",
                      fmt::format("this platform has no {}, which is offered by: {}; accepted: gouraud, quadratic, "
-                                 "quadratic_adaptive",
+                                 "quadratic_adaptive, pseudo_phong",
                                  traits.name, traits.platform)});
   const auto& known = fixed_formats();
   if (std::find(known.begin(), known.end(), fixed_fraction_bits) == known.end())
@@ -75,6 +78,8 @@ int SetUpParameters::corner_bits() const {
       return static_cast<int>(snap_bits + depth_limit);
     case ShadingMethod::highlight_subdivision:
       return static_cast<int>(kFinest);
+    case ShadingMethod::pseudo_phong:
+      return static_cast<int>(snap_bits + halvings);
     default:
       return static_cast<int>(snap_bits);
   }

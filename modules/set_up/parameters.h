@@ -39,8 +39,9 @@ struct SetUpParameters {
   double area_pixels = 32.0;     // regular subdivision goes on above it
   double intensity_error = 0.3;  // relative: highlight subdivision puts a vertex on an edge above it
   std::int64_t depth_limit = 6;  // of subdivision
+  std::int64_t halvings = 2;     // pseudo-Phong: of every edge
 
-  // Paths "set_up.method" ..., "highlight_test.threshold_levels" ..., "subdivision.coverage"
+  // Paths "set_up.method" ..., "highlight_test.threshold_levels" ..., "subdivision.coverage", "pseudo_phong.depth"
   void declare(parameter::Table& table);
   // A fixed format that the program has not, a method that other platforms offer.
   void check(const std::string& file, Diagnostics& diagnostics) const;

@@ -91,6 +91,7 @@ TriangleColourer::TriangleColourer(const SetUpParameters& parameters, PointLight
     : parameters_(parameters),
       lighting_(lighting),
       subdivision_(parameters, lighting),
+      midpoints_(parameters.halvings, lighting),
       solve_cost_(cost_of_solving(parameters)) {
   facing_cost_.integer = 6;
   facing_cost_.integer_multiply = 2;
@@ -103,6 +104,7 @@ geometry::OperationCounts TriangleColourer::operations() const {
   geometry::OperationCounts all = operations_;
   all += lighting_.operations();
   all += subdivision_.operations();
+  all += midpoints_.operations();
   return all;
 }
 
@@ -129,7 +131,8 @@ void TriangleColourer::colour(const ColourRequest& request, std::vector<ColourTr
     return;
   }
   light_knots(request, turned, knots_);
-  if (request.highlighted && parameters_.subdivides()) return draw_parts(request, knots_, out);
+  const bool cut = parameters_.subdivides() ? request.highlighted : parameters_.method == ShadingMethod::pseudo_phong;
+  if (cut) return draw_parts(request, knots_, out);
   begin_triangle(request, request.depth, out);
   split_or_draw(knots_, 0, out);
 }
@@ -147,10 +150,14 @@ void TriangleColourer::draw_parts(const ColourRequest& request, const Knots& kno
   LitTriangle whole;
   for (std::size_t i = 0; i < 3; ++i) whole[i] = {knots.point[i], knots.levels[i], request.depth[i]};
   parts_.clear();
-  if (parameters_.method == ShadingMethod::regular_subdivision)
+  if (parameters_.method == ShadingMethod::pseudo_phong) {
+    midpoints_.cut(whole, request.material, parts_);
+    counts_.splits += (parts_.size() - 1) / 3;
+  } else if (parameters_.method == ShadingMethod::regular_subdivision) {
     subdivision_.regular(whole, request.material, parts_);
-  else
+  } else {
     subdivision_.highlight(whole, request.material, parts_);
+  }
   Knots of_part;
   for (const LitTriangle& part : parts_) {
     for (std::size_t i = 0; i < 3; ++i) {

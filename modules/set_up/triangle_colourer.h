@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "modules/set_up/midpoint_grid.h"
 #include "modules/set_up/parameters.h"
 #include "modules/set_up/point_lighting.h"
 #include "modules/set_up/span_load.h"
@@ -84,6 +85,7 @@ class TriangleColourer {
   SetUpParameters parameters_;
   PointLighting& lighting_;
   Subdivision subdivision_;
+  MidpointGrid midpoints_;
   ColourCounts counts_;
   geometry::OperationCounts operations_;
   geometry::OperationCounts solve_cost_;  // three channels

@@ -19,6 +19,7 @@ enum class ShadingMethod {
   duff,
   taylor,
   angular,
+  pseudo_phong,
 };
 
 struct ShadingMethodTraits {
@@ -33,7 +34,7 @@ struct ShadingMethodTraits {
   std::string_view source;    // paper
 };
 
-inline constexpr std::array<ShadingMethodTraits, 11> kShadingMethods{{
+inline constexpr std::array<ShadingMethodTraits, 12> kShadingMethods{{
     {ShadingMethod::gouraud, "gouraud", "colour, linear", "3 vertices", false, false, "quadratic, adaptive", "000/001"},
     {ShadingMethod::quadratic, "quadratic", "colour, quadratic", "3 vertices and 3 edge midpoints", false, false,
      "quadratic", "000/001"},
@@ -54,6 +55,8 @@ inline constexpr std::array<ShadingMethodTraits, 11> kShadingMethods{{
      false, "adaptive", "Bishop and Weimer 1986"},
     {ShadingMethod::angular, "angular", "angle of the normal, linear along edges and lines", "every pixel", false,
      false, "adaptive", "Kuijk and Blake 1989"},
+    {ShadingMethod::pseudo_phong, "pseudo_phong", "colour, linear in each of 4^k parts",
+     "corners of the parts, from edges halved k times", false, false, "quadratic", "000/001, section 2"},
 }};
 
 constexpr const ShadingMethodTraits& traits_of(ShadingMethod method) {

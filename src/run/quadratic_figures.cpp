@@ -93,7 +93,7 @@ std::vector<Memory> memory_figures(const Quadratic& platform) {
     memories.push_back({"frame store, depth", 1, pixels, static_cast<std::uint64_t>(m.span_unit.depth_bits)});
   // Six registers a channel and three of depth, and the edges' and lines' in each set; a set is drawn from.
   const auto sets = static_cast<std::uint64_t>((m.span_unit.shadow_sets + 1) * m.span_unit.units);
-  const bool linear = m.set_up.method == ShadingMethod::gouraud;
+  const bool linear = m.set_up.linear();
   memories.push_back({"span unit, colour registers", sets, span_unit::kChannels * (linear ? 3U : 6U),
                       static_cast<std::uint64_t>(m.span_unit.word_bits)});
   memories.push_back({"span unit, depth registers", sets, 3,
@@ -104,7 +104,7 @@ std::vector<Memory> memory_figures(const Quadratic& platform) {
 std::vector<Logic> logic_figures(const Quadratic& platform) {
   const span_unit::SpanUnitParameters& p = platform.machine().span_unit;
   const auto units = static_cast<std::uint64_t>(p.units);
-  const bool linear = platform.machine().set_up.method == ShadingMethod::gouraud;
+  const bool linear = platform.machine().set_up.linear();
   const bool rank = p.start_edge == span_unit::StartEdge::lattice && p.carry == span_unit::Carry::rank;
   // Figure 6: two adders a channel along the line, three at the start edge, and as many again for carries at once.
   const std::uint64_t channel = linear ? 2U + (rank ? 1U : 0U) : 5U + (rank ? 3U : 0U);
