@@ -11,7 +11,7 @@ FrameStore::FrameStore(const FrameStoreParameters& parameters, const Format& for
       background_(format.background[0] | std::uint32_t{format.background[1]} << 8 |
                   std::uint32_t{format.background[2]} << 16),
       kernels_(store_kernels(variant)),
-      two_(parameters.buffers == 2 && !parameters.clear) {
+      two_(parameters.buffers == 2 && (!parameters.clear || parameters.changes_while_shown())) {
   for (std::uint32_t x = 0; x < format.columns; ++x)
     blank_line_.insert(blank_line_.end(), format.background.begin(), format.background.end());
   resize(buffers_[0]);
@@ -33,6 +33,8 @@ void FrameStore::clear() {
   Buffer& buffer = buffers_[drawn_];
   std::fill(buffer.blank.begin(), buffer.blank.end(), std::uint8_t{1});
 }
+
+void FrameStore::clear(std::uint32_t line) { buffers_[drawn_].blank[line] = 1; }
 
 void FrameStore::begin_line(Buffer& buffer, std::size_t line) const {
   buffer.blank[line] = 0;
@@ -95,12 +97,22 @@ void FrameStore::scan_out(std::uint32_t line, frame::RgbLine& out) const {
 }
 
 void FrameStore::observe(frame::Frame& out) const {
+  if (!parameters_.changes_while_shown()) return copy_lines(0, format_.lines, out);
+  out.depth = noted_.depth;
+  out.object = noted_.object;
+  out.material = noted_.material;
+  out.coverage = noted_.coverage;
+}
+
+void FrameStore::note_line(std::uint32_t line) { copy_lines(line, line + 1, noted_); }
+
+void FrameStore::copy_lines(std::size_t begin, std::size_t end, frame::Frame& out) const {
   const Buffer& buffer = shown();
   const std::size_t columns = format_.columns;
   const auto copy = [&](const std::vector<std::uint32_t>& from, std::uint32_t blank, std::vector<std::uint32_t>& to) {
     if (from.empty()) return;
     to.resize(columns * format_.lines);
-    for (std::size_t line = 0; line < format_.lines; ++line)
+    for (std::size_t line = begin; line < end; ++line)
       if (buffer.blank[line] != 0)
         std::fill_n(to.data() + line * columns, columns, blank);
       else

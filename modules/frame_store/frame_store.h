@@ -41,8 +41,9 @@ class FrameStore {
 
   FrameStore(const FrameStoreParameters& parameters, const Format& format, VectorVariant variant = vector_variant());
 
-  // Of the picture that is drawn: nothing everywhere.
+  // Of the picture that is drawn: nothing everywhere, or on a line.
   void clear();
+  void clear(std::uint32_t line);
   // Spans of a triangle, on the screen, on one line after the other. Strictly smaller depth wins; equal depth keeps the
   // lower object where the store compares numbers, else the first. Without a depth test what comes last stays. Returns
   // how many pixels won; `won`, where given and of a single span, a bit a pixel which: from the lowest on, in as many
@@ -54,8 +55,11 @@ class FrameStore {
 
   // Levels of a line that is shown; until clear() or draw() begins the next picture, where a picture is cleared.
   void scan_out(std::uint32_t line, frame::RgbLine& out) const;
-  // What is shown, with what was kept. Likewise.
+  // What is shown, with what was kept. Likewise; where pictures change while they are shown, of each line that which
+  // was there when it was last noted.
   void observe(frame::Frame& out) const;
+  // What is kept of a line that is being read, for observers.
+  void note_line(std::uint32_t line);
 
   const StoreCounters& counters() const { return counters_; }
 
@@ -71,6 +75,7 @@ class FrameStore {
   };
   void resize(Buffer& buffer) const;
   void begin_line(Buffer& buffer, std::size_t line) const;
+  void copy_lines(std::size_t begin, std::size_t end, frame::Frame& out) const;
   const Buffer& shown() const { return buffers_[two_ ? 1 - drawn_ : drawn_]; }
 
   FrameStoreParameters parameters_;
@@ -78,10 +83,12 @@ class FrameStore {
   std::uint32_t background_;
   std::vector<std::uint8_t> blank_line_;  // as it is shown
   const StoreKernels& kernels_;
-  // A picture that is cleared before it is drawn leaves no trace of the last but one: then one buffer does for two.
+  // A picture that is cleared before it is drawn leaves no trace of the last but one: then one buffer does for two, if
+  // the screen looks between the swap and the clear.
   bool two_;
   std::array<Buffer, 2> buffers_;
   std::size_t drawn_ = 0;  // the other, or the same where there is one, is shown
+  frame::Frame noted_;     // line by line
   StoreCounters counters_;
 };
 

@@ -32,6 +32,9 @@ FrameStoreModule::FrameStoreModule(const sc_core::sc_module_name& name, const Fr
       link_(link),
       quick_(keeps_up(parameters, layout, pixel_ps)) {
   rgb_.resize(layout.columns);
+  if (parameters.changes_while_shown())
+    reader_.emplace(store, timing, static_cast<std::uint32_t>(layout.columns), static_cast<std::uint32_t>(layout.lines),
+                    [this](const ScreenReader::Line& line, const frame::RgbLine& levels) { send_read(line, levels); });
   constexpr std::size_t kBits = 64;
   if (layout.asks_which_won()) won_.resize((layout.columns + kBits - 1) / kBits);
   in.register_b_transport(this, &FrameStoreModule::receive);
@@ -52,7 +55,7 @@ void FrameStoreModule::receive(SpanPayload& payload, sc_core::sc_time& delay) {
 // The frame may be drawn when its buffer is free and has been cleared. Where it is not, what stands there stays: with a
 // depth test, what was nearer as well.
 void FrameStoreModule::begin_frame(SpanPayload& payload, sc_core::sc_time& delay) {
-  payload.keeps_up = quick_;
+  payload.keeps_up = quick_ && !reader_;  // a screen sees when each span is drawn
   const std::uint64_t now = stream::picoseconds_now();
   std::uint64_t free = std::max<std::uint64_t>(now + delay.value(), buffer_free_ps_);
   begun_ps_ = free;
@@ -60,13 +63,23 @@ void FrameStoreModule::begin_frame(SpanPayload& payload, sc_core::sc_time& delay
   if (parameters_.clear) {
     clear_accesses_ += layout_.clear_accesses();
     free = schedule_.serve(free, layout_.clear_accesses());
-    store_.clear();
+    clear(free);
   }
   delay = stream::to_time(free - now);
 }
 
+// Line by line where the screen may be looking.
+void FrameStoreModule::clear(std::uint64_t until_ps) {
+  if (!reader_ || parameters_.buffers == 2) return store_.clear();
+  for (std::uint64_t line = 0; line < layout_.lines; ++line) {
+    reader_->advance(begun_ps_ + (until_ps - begun_ps_) * line / layout_.lines);
+    store_.clear(static_cast<std::uint32_t>(line));
+  }
+}
+
+// A span is seen from the instant at which it begins.
 void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay) {
-  if (quick_ && won_.empty()) {
+  if (quick_ && won_.empty() && !reader_) {
     const std::uint64_t kept = store_.draw(payload.spans, payload.object, payload.material);
     drawing_accesses_ += layout_.span_accesses(0, payload.pixels, kept, nullptr);
     return;
@@ -75,6 +88,7 @@ void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay)
   const std::uint64_t now = stream::picoseconds_now();
   std::uint64_t until = now + delay.value();
   for (const span_unit::Span& span : payload.spans) {
+    if (reader_) reader_->advance(until);
     const std::uint32_t kept = store_.draw({&span, 1}, payload.object, payload.material, won);
     const std::uint64_t accesses = layout_.span_accesses(span.column, span.count, kept, won);
     drawing_accesses_ += accesses;
@@ -92,8 +106,17 @@ void FrameStoreModule::end_frame(SpanPayload& payload, const sc_core::sc_time& d
   payload.shown_ps = waits ? retrace_from(drawn) : drawn;
   const bool once_shown = waits && parameters_.buffers == 1;
   buffer_free_ps_ = once_shown ? retrace_from(payload.shown_ps + 1) : payload.shown_ps;
+  if (!reader_) {
+    store_.swap();
+    return scan_out(payload.frame, payload.shown_ps);
+  }
+  reader_->advance(drawn);
   store_.swap();
-  scan_out(payload.frame, payload.shown_ps);
+  reader_->expect(payload.frame, retrace_from(drawn));
+}
+
+void FrameStoreModule::finish() {
+  if (reader_) reader_->finish();
 }
 
 // Of the time in which a frame was drawn, what nobody used.
@@ -119,6 +142,20 @@ std::uint64_t FrameStoreModule::retrace_from(std::uint64_t picoseconds) const {
   const std::uint64_t clocks = timing_.clock.cycles_at(picoseconds).count();
   const std::uint64_t frame = timing_.frame.count();
   return timing_.clock.picoseconds(Cycles((clocks + frame - 1) / frame * frame));
+}
+
+// Simulated time may have passed it by: what is drawn is known before it is.
+void FrameStoreModule::send_read(const ScreenReader::Line& line, const frame::RgbLine& levels) {
+  torn_lines_.resize(std::max<std::size_t>(torn_lines_.size(), line.frame + 1));
+  torn_lines_[line.frame] = line.torn_lines;
+  payload_.frame = line.frame;
+  payload_.line = line.number;
+  payload_.rgb = &levels;
+  payload_.fragments = &fragments_;
+  link_.record(levels.columns(), Cycles(levels.columns()));
+  const std::uint64_t now = stream::picoseconds_now();
+  sc_core::sc_time delay = stream::to_time(std::max(line.first_pixel_ps, now) - now);
+  out->b_transport(payload_, delay);
 }
 
 // The lines of the first screen that shows it, with their times.

@@ -4,11 +4,13 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
+#include <optional>
 #include <systemc>
 #include <vector>
 
 #include "modules/frame_store/frame_store.h"
 #include "modules/frame_store/memory_schedule.h"
+#include "modules/frame_store/screen_reader.h"
 #include "modules/frame_store/span_payload.h"
 #include "modules/stream/line_payload.h"
 #include "modules/stream/link.h"
@@ -40,12 +42,20 @@ class FrameStoreModule : public sc_core::sc_module {
   const Clock& clock() const { return clock_; }
   const MemorySchedule& schedule() const { return schedule_; }
   bool never_waited_for() const { return quick_; }
+  // When the screen that shows a frame begins, which was shown from `shown_ps` on: the first whole one.
+  std::uint64_t screen_ps(std::uint64_t shown_ps) const { return retrace_from(shown_ps); }
+  // Lines of a frame's screen that do not show it as it was when it was whole; known once its last line has been sent.
+  std::uint64_t torn_lines(std::uint64_t frame) const { return frame < torn_lines_.size() ? torn_lines_[frame] : 0; }
+  // Nothing more will be drawn: sends what is left of screens.
+  void finish();
 
  private:
   void receive(SpanPayload& payload, sc_core::sc_time& delay);
   void begin_frame(SpanPayload& payload, sc_core::sc_time& delay);
   void draw(const SpanPayload& payload, sc_core::sc_time& delay);
   void end_frame(SpanPayload& payload, const sc_core::sc_time& delay);
+  void clear(std::uint64_t until_ps);
+  void send_read(const ScreenReader::Line& line, const frame::RgbLine& levels);
   void note_starved(std::uint64_t drawn_ps);
   void scan_out(std::uint64_t frame, std::uint64_t shown_ps);
   std::uint64_t retrace_from(std::uint64_t picoseconds) const;
@@ -62,6 +72,8 @@ class FrameStoreModule : public sc_core::sc_module {
   frame::RgbLine rgb_;
   frame::FragmentLine fragments_;  // observers of this store look at it as a whole
   stream::RgbPayload payload_;
+  std::optional<ScreenReader> reader_;  // where pictures change while they are shown
+  std::vector<std::uint64_t> torn_lines_;
   std::uint64_t buffer_free_ps_ = 0;
   std::uint64_t drawing_accesses_ = 0;
   std::uint64_t clear_accesses_ = 0;

@@ -36,6 +36,8 @@ struct FrameStoreParameters {
   void check(const std::string& file, Diagnostics& diagnostics) const;
 
   std::uint64_t access_ps() const;
+  // A screen that is being shown may change: by a swap, or by what is drawn into the one buffer.
+  bool changes_while_shown() const { return swap == Swap::completion; }
 };
 
 }  // namespace rastertlm::frame_store

@@ -27,7 +27,7 @@ void SetUpProcessorModule::run_guarded() {
 // 3. the store is told that the frame is whole, and says when it is shown;
 // 4. whoever runs the simulation gets a chance to look at the picture, and time passes to the end of the set-up.
 void SetUpProcessorModule::run() {
-  for (std::uint64_t f = 0; f < timeline_.frames; ++f) {
+  for (std::uint64_t f = 0; f < timeline_.frames || (timeline_.goes_on && timeline_.goes_on()); ++f) {
     SetUpFrame frame;
     frame.animation_frame = static_cast<std::int64_t>(f);
     frame.pose = timeline_.pose(frame.animation_frame);

@@ -39,6 +39,7 @@ class SetUpProcessorModule : public sc_core::sc_module {
     bool viewer_at_eye = false;
     std::uint64_t frames = 1;
     std::function<void(const SetUpFrame&)> drawn;  // called when a frame has been drawn
+    std::function<bool()> goes_on{};               // whether one more is, after so many; none: no
   };
 
   // Frames are computed one after the other; simulated time follows at each frame's end. `link`: the bus.

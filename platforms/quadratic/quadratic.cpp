@@ -81,7 +81,8 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
   set_up_processor_ = std::make_unique<host::SetUpProcessorModule>(
       "set_up_processor", *work_, cost_,
       host::SetUpProcessorModule::Timeline{resident_.pose, viewer_at_eye(scene), options.frames,
-                                           [this](const auto& frame) { note_drawn(frame); }},
+                                           [this](const auto& frame) { note_drawn(frame); },
+                                           [this] { return waits_for_screen(); }},
       bus);
   span_unit_ = std::make_unique<span_unit::SpanUnitModule>("span_unit", machine.span_unit,
                                                            static_cast<std::uint32_t>(machine.video.columns),
@@ -97,10 +98,8 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
       "video_output",
       video::FrameAssembly::Format{static_cast<std::size_t>(machine.video.columns),
                                    static_cast<std::size_t>(machine.video.lines), 1, 12, 0, false},
-      [this](std::uint64_t, std::size_t, const frame::Frame& pixels_shown, std::uint64_t last_line_ps) {
-        shown_pixels_ = options_.observe ? &(pixels_ = pixels_shown) : &pixels_shown;
-        shown_.last_pixel_ps =
-            last_line_ps + timing_.clock.picoseconds(Cycles(static_cast<std::uint64_t>(machine_.video.columns) - 1));
+      [this](std::uint64_t number, std::size_t, const frame::Frame& picture, std::uint64_t) {
+        note_screen(number, picture);
       });
   set_up_processor_->bus.bind(span_unit_->bus);
   span_unit_->out.bind(frame_store_->in);
@@ -121,18 +120,39 @@ void Quadratic::check_scene() const {
   diagnostics.throw_if_any();
 }
 
+// Called with the last line of a frame's screen.
+void Quadratic::note_screen(std::uint64_t number, const frame::Frame& pixels) {
+  shown_pixels_ = &pixels;
+  if (options_.observe) {
+    pixels_ = pixels;
+    store_.observe(pixels_);
+    shown_pixels_ = &pixels_;
+  }
+  if (machine_.frame_store.changes_while_shown()) screens_.emplace_back(number, *shown_pixels_);
+}
+
+// Later frames are seen on the last one's screen: they are drawn too where somebody looks, if time passes at all.
+bool Quadratic::waits_for_screen() const {
+  if (!sink_ || !machine_.frame_store.changes_while_shown() || screens_shown_ >= options_.frames) return false;
+  const std::size_t count = frames_.size();
+  return count < 2 || frames_[count - 1].set_up.shown_ps > frames_[count - 2].set_up.shown_ps;
+}
+
 // Called when a frame is in the store and its lines are on their way.
 void Quadratic::note_drawn(const host::SetUpFrame& frame) {
   shown_.set_up = frame;
   shown_.drawn_ps = span_unit_->end_ps();
-  shown_.first_pixel_ps = frame.shown_ps + timing_.clock.picoseconds(timing_.first_pixel(0));
+  const std::uint64_t screen_ps = frame_store_->screen_ps(frame.shown_ps);
+  const Cycles last_pixel = timing_.first_pixel(static_cast<std::size_t>(machine_.video.lines) - 1) +
+                            Cycles(static_cast<std::uint64_t>(machine_.video.columns) - 1);
+  shown_.first_pixel_ps = screen_ps + timing_.clock.picoseconds(timing_.first_pixel(0));
+  shown_.last_pixel_ps = screen_ps + timing_.clock.picoseconds(last_pixel);
   const span_unit::SpanCounters now = span_unit_->counters();
   shown_.drawn = {now.triangles - drawn_before_.triangles,     now.lines - drawn_before_.lines,
                   now.empty_lines - drawn_before_.empty_lines, now.carries - drawn_before_.carries,
                   now.pixels - drawn_before_.pixels,           now.off_screen - drawn_before_.off_screen};
   drawn_before_ = now;
   shown_.work = work_since_last();
-  if (options_.observe) store_.observe(pixels_);
   waiting_ = true;
 }
 
@@ -163,9 +183,25 @@ void Quadratic::run() {
     if (!waiting_) continue;
     waiting_ = false;
     frames_.push_back(shown_);
-    if (sink_) sink_(shown_, *shown_pixels_);
+    hand_on();
   }
+  frame_store_->finish();
+  hand_on_screens();
   check_identities();
+}
+
+void Quadratic::hand_on() {
+  if (machine_.frame_store.changes_while_shown()) return hand_on_screens();
+  if (sink_) sink_(shown_, *shown_pixels_);
+}
+
+void Quadratic::hand_on_screens() {
+  for (const auto& [number, pixels] : screens_) {
+    frames_[number].torn_lines = frame_store_->torn_lines(number);
+    if (sink_) sink_(frames_[number], pixels);
+  }
+  screens_shown_ += screens_.size();
+  screens_.clear();
 }
 
 double Quadratic::frames_per_second() const {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "modules/frame_store/frame_store_module.h"
@@ -20,7 +21,7 @@
 namespace rastertlm::quadratic {
 
 struct Options {
-  std::uint64_t frames = 1;  // to show
+  std::uint64_t frames = 1;  // to show; where later ones are seen on their screens, as many more are drawn
   bool observe = true;       // frames have all their planes; without, their levels alone
 };
 
@@ -39,6 +40,7 @@ struct ShownFrame {
   std::uint64_t drawn_ps = 0;     // when its last pixel was in the store
   span_unit::SpanCounters drawn;  // of this frame
   FrameWork work;
+  std::uint64_t torn_lines = 0;  // of its screen, that do not show it as it was when it was whole
 };
 
 class Quadratic {
@@ -71,6 +73,10 @@ class Quadratic {
 
  private:
   void check_scene() const;
+  void note_screen(std::uint64_t number, const frame::Frame& pixels);
+  bool waits_for_screen() const;
+  void hand_on();
+  void hand_on_screens();
   void note_drawn(const host::SetUpFrame& frame);
   FrameWork work_since_last();
   void check_identities() const;
@@ -98,6 +104,9 @@ class Quadratic {
   std::vector<std::uint64_t> busy_before_;  // of each span unit
   std::uint64_t waiting_before_ = 0;
   std::uint64_t accesses_before_ = 0;
+  // Of pictures that change while they are shown: those that have been shown, and not been handed on.
+  std::vector<std::pair<std::uint64_t, frame::Frame>> screens_;
+  std::uint64_t screens_shown_ = 0;
   bool waiting_ = false;  // shown_ has not been handed on
   std::vector<ShownFrame> frames_;
 };

@@ -242,6 +242,8 @@ void visit_span(Visitor& v, run::SpanFrameFigures& s) {
   v.value("off_screen_pixels", {"pixels", kCount, "that it stepped over"}, s.off_screen_pixels);
   v.value("set_up_us", {"us", kFormula, "from the frame's start to its last word, waits included"}, s.set_up_us);
   v.value("shown_us", {"us", kFormula, "from the frame's start to when it is shown"}, s.shown_us);
+  v.value("torn_lines", {"lines", kCount, "of its screen, that do not show it as it was when it was whole"},
+          s.torn_lines);
 }
 
 template <class Visitor>

@@ -214,6 +214,7 @@ std::string pictures_section(const run::Result& result) {
   add("words sent to the hardware", f.words_sent, "words");
   if (has_boards(result)) add("shaded from half-written tables", f.late_table_lines, "lines");
   if (!has_boards(result)) add("stepped over off the screen", f.span.off_screen_pixels, "pixels");
+  if (f.span.torn_lines > 0) add("of the screen, not as the frame was when it was whole", f.span.torn_lines, "lines");
   std::string text = heading("What the picture is made of") + table.text();
   if (result.frames.size() > 1) text += sentence_line(fmt::format("Every frame is a row of {}.", kFramesCsv));
   if (result.interlaced)

@@ -124,6 +124,31 @@ Bottleneck bottleneck_of(const quadratic::Machine& m, const FrameLoad& load, dou
   return {"span unit", load.clear > 0.0 ? after_clear : "loads, lines and pixels", drawing};
 }
 
+// Screens on which a viewer sees what is being drawn, or parts of two frames.
+void add_warnings_of_screens(const Quadratic& platform, std::uint64_t displayed, std::vector<std::string>& warnings) {
+  const video::Timing& timing = platform.timing();
+  if (draws_in_turn_with_screen(platform.machine()) && platform.frames().size() > 1) {
+    // From the end of the screen that has shown a frame to the start of that which shows the next one.
+    const std::uint64_t passed = platform.end_ps() - platform.frames().front().set_up.shown_ps;
+    const std::uint64_t screens = timing.clock.cycles_at(passed).count() / timing.frame.count();
+    warnings.push_back(
+        fmt::format("of {} screens {} show the one buffer while it is drawn, between the whole frames that are shown "
+                    "here (frame_store.buffers)",
+                    screens, screens - (platform.frames().size() - 1)));
+  }
+  std::uint64_t torn = 0;
+  std::uint64_t lines = 0;
+  for (std::size_t frame = 0; frame < std::min<std::size_t>(displayed, platform.frames().size()); ++frame) {
+    torn += platform.frames()[frame].torn_lines > 0 ? 1 : 0;
+    lines += platform.frames()[frame].torn_lines;
+  }
+  if (torn > 0)
+    warnings.push_back(
+        fmt::format("{} of {} displayed frames are torn: {} lines of their screens do not show them as they were when "
+                    "they were whole (frame_store.swap, frame_store.buffers)",
+                    torn, displayed, lines));
+}
+
 const char* what_waits(const quadratic::Machine& m) {
   if (draws_in_turn_with_screen(m))
     return "the one buffer is drawn in one video frame and shown in the next; it moves with frame_store.buffers, "
@@ -184,8 +209,9 @@ Answer quadratic_answer(const Quadratic& platform, const std::vector<Budget>& bu
   return answer;
 }
 
-std::vector<std::string> quadratic_warnings(const Quadratic& platform) {
+std::vector<std::string> quadratic_warnings(const Quadratic& platform, std::uint64_t displayed) {
   std::vector<std::string> warnings;
+  add_warnings_of_screens(platform, displayed, warnings);
   const quadratic::Machine& m = platform.machine();
   const double bound = fraction_bound(m);
   constexpr double kHalfALevel = 0.5;

@@ -10,7 +10,8 @@ namespace rastertlm::run {
 
 std::vector<Budget> quadratic_budgets(const quadratic::Quadratic& platform);
 Answer quadratic_answer(const quadratic::Quadratic& platform, const std::vector<Budget>& budgets);
-// Sentences: words that are too narrow for the screen, triangles that are not as their method has them.
-std::vector<std::string> quadratic_warnings(const quadratic::Quadratic& platform);
+// Sentences: words that are too narrow for the screen, triangles that are not as their method has them, screens that
+// show what is being drawn. `displayed`: how many of the frames are.
+std::vector<std::string> quadratic_warnings(const quadratic::Quadratic& platform, std::uint64_t displayed);
 
 }  // namespace rastertlm::run

@@ -59,7 +59,8 @@ FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown
             shown.drawn.pixels,
             shown.drawn.off_screen,
             static_cast<double>(shown.set_up.end_ps - shown.set_up.begin_ps) * kMicrosecond,
-            static_cast<double>(shown.set_up.shown_ps - shown.set_up.begin_ps) * kMicrosecond};
+            static_cast<double>(shown.set_up.shown_ps - shown.set_up.begin_ps) * kMicrosecond,
+            shown.torn_lines};
   return f;
 }
 
@@ -143,7 +144,7 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   result.config_digest = config_digest(inputs);
   result.scene_digest = scene.digest;
   result.frame_count = options.frames;
-  result.simulated_frames = frames;
+  result.simulated_frames = platform->frames().size();
   result.columns = machine.viewport().columns;
   result.lines = machine.viewport().lines;
   result.obtained_refresh_hz = platform->timing().obtained_refresh_hz();
@@ -157,7 +158,7 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   result.memories = memory_figures(*platform);
   result.logic = logic_figures(*platform);
   result.modelled = modelled_figures(*platform, scene);
-  result.warnings = quadratic_warnings(*platform);
+  result.warnings = quadratic_warnings(*platform, options.frames);
   if (options.host_figures)
     result.host =
         host_figures(std::chrono::steady_clock::now() - start - outside, frames * platform->timing().frame.count());

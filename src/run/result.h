@@ -152,6 +152,7 @@ struct SpanFrameFigures {
   std::uint64_t off_screen_pixels = 0;  // stepped over
   double set_up_us = 0.0;               // from the frame's start to its last word, waits included
   double shown_us = 0.0;                // from the frame's start to the retrace that shows it
+  std::uint64_t torn_lines = 0;         // of its screen, that do not show it as it was when it was whole
 };
 
 // One displayed frame: its figures, not its pixels. Of interlaced video two fields are one frame: figures of triangles

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <random>
 #include <tuple>
@@ -241,6 +242,88 @@ TEST(FrameStoreModule, LinesOfTheScreenGoFirstAtASharedPort) {
   EXPECT_EQ(at.module.scan_out_accesses(kFirstLine + 1), kColumns);
   EXPECT_EQ(at.module.scan_out_accesses(kVideoFrame), kColumns * kLines);
 }
+
+// What a viewer sees of one buffer that is drawn while it is shown, pixel by pixel from the writes in the order of
+// time: a line is what the writes before the start of its blanking have left.
+class Torn : public testing::TestWithParam<std::pair<std::int64_t, bool>> {};  // buffers, clear
+
+TEST_P(Torn, ScreensShowWhatWasThereWhenTheyWereRead) {
+  FrameStoreParameters parameters = memory_of_30_ns();
+  parameters.swap = Swap::completion;
+  parameters.depth_test = false;
+  parameters.access_ns = 300.0;
+  std::tie(parameters.buffers, parameters.clear) = GetParam();
+  Machine m("m", parameters, kClock);
+  struct Write {
+    std::uint64_t picoseconds;
+    std::size_t buffer;
+    std::size_t line, begin, end;
+    std::uint8_t level;
+  };
+  std::vector<Write> writes;
+  std::vector<std::uint64_t> drawn;
+  constexpr std::uint64_t kFrames = 6;
+  simulated([&] {
+    std::mt19937 random(11);
+    std::uint64_t now = 0;
+    for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+      const std::size_t buffer = frame % static_cast<std::size_t>(parameters.buffers);
+      const std::uint64_t asked = now;
+      now = m.begin(frame, now);
+      if (parameters.clear)
+        for (std::size_t line = 0; line < kLines; ++line)
+          writes.push_back({asked + (now - asked) * line / kLines, buffer, line, 0, kColumns, 7});
+      for (int i = 0; i < 40; ++i) {
+        const auto line = static_cast<std::uint32_t>(random() % kLines);
+        const auto column = static_cast<std::uint32_t>(random() % (kColumns - 4));
+        const auto level = static_cast<std::uint8_t>(20 + random() % 200);
+        writes.push_back({now, buffer, line, column, column + 4U, level});
+        now = m.draw(line, column, 4, 9, level, now) + random() % 900'000;
+      }
+      now = m.end(frame, now);
+      drawn.push_back(now);
+    }
+    m.module.finish();
+  });
+  ASSERT_EQ(m.lines.size(), kFrames * kLines);
+  std::size_t torn_frames = 0;
+  for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+    const std::uint64_t screen = (drawn[frame] + kVideoFrame - 1) / kVideoFrame * kVideoFrame;
+    // Level of a pixel's red at a time, in the buffer that is shown then.
+    const auto seen = [&](std::size_t line, std::size_t column, std::uint64_t at) {
+      std::size_t latest = frame;
+      while (latest + 1 < kFrames && drawn[latest + 1] < at) ++latest;
+      const std::size_t buffer = latest % static_cast<std::size_t>(parameters.buffers);
+      int level = 7;
+      for (const Write& write : writes)
+        if (write.picoseconds < at && write.buffer == buffer && write.line == line && column >= write.begin &&
+            column < write.end)
+          level = write.level;
+      return level;
+    };
+    std::uint64_t torn = 0;
+    for (std::size_t line = 0; line < kLines; ++line) {
+      const auto found = std::find_if(m.lines.begin(), m.lines.end(),
+                                      [&](const auto& l) { return l.frame == frame && l.line == line; });
+      ASSERT_NE(found, m.lines.end());
+      const std::uint64_t read = screen + kFirstLine + line * kLine;
+      EXPECT_GE(found->picoseconds, read + kBlanking);
+      bool as_it_was = true;
+      for (std::size_t column = 0; column < kColumns; ++column) {
+        EXPECT_EQ(found->levels[3 * column], seen(line, column, read)) << frame << ", " << line << ", " << column;
+        as_it_was = as_it_was && found->levels[3 * column] == seen(line, column, drawn[frame]);
+      }
+      torn += as_it_was ? 0 : 1;
+    }
+    EXPECT_EQ(m.module.torn_lines(frame), torn) << frame;
+    torn_frames += torn > 0 ? 1 : 0;
+  }
+  EXPECT_GT(torn_frames, 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Buffers, Torn,
+                         testing::Values(std::pair(1, true), std::pair(1, false), std::pair(2, true),
+                                         std::pair(2, false)));
 
 // Busy with its accesses, starved while a frame is drawn and nobody asks, idle between frames.
 TEST(FrameStoreModule, TellsWhereItsTimeWent) {

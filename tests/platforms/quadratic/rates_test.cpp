@@ -184,6 +184,7 @@ TEST(DealtUnits, ShowWhatOneUnitShows) {
       machine.span_unit.units = units;
       machine.span_unit.share = span_unit::Share::triangles;
       machine.frame_store.access_ns = 40.0;
+      machine.frame_store.swap = frame_store::Swap::retrace;  // whole, whenever that is
       std::string bytes;
       quadratic::Quadratic platform(machine, scene, {1, true}, [&](const auto&, const frame::Frame& frame) {
         bytes.assign(frame.rgb.begin(), frame.rgb.end());
