@@ -80,6 +80,9 @@ void ExploreCommand::declare(CLI::App& app) {
 
 void ExploreCommand::declare_run(CLI::App& app) {
   app.add_option("SWEEP", sweep_, "sweep file")->required();
+  app.add_option("--set", overrides_, "path=value: set a parameter of every point's machine or scene")
+      ->type_name("path=value")
+      ->allow_extra_args(false);
   validated(app.add_option("--store", store_, "file of the results (default: out/<sweep>.sqlite)")->type_name("FILE"),
             not_empty);
   validated(app.add_option("--jobs", jobs_, "simulations at a time (default: one a processor)")->type_name("N"),
@@ -132,7 +135,7 @@ std::string ExploreCommand::store_of(const std::string& sweep_name) const {
 }
 
 ExitCode ExploreCommand::run_sweep() {
-  explore::Sweep sweep = explore::read_sweep(sweep_);
+  explore::Sweep sweep = explore::read_sweep(sweep_, overrides_);
   const explore::Design design(sweep);
   explore::RunOptions options;
   options.jobs = jobs_ > 0 ? jobs_ : std::max(1U, std::thread::hardware_concurrency());

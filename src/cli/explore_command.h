@@ -31,6 +31,7 @@ class ExploreCommand : public Command {
 
   const CLI::App* app_ = nullptr;
   std::string sweep_;
+  std::vector<std::string> overrides_;
   std::string store_;
   std::size_t jobs_ = 0;  // 0: as many as there are processors
   std::string shard_;     // K/N; empty: all points

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "src/explore/figures.h"
 #include "src/report/figure_path.h"
 
 namespace rastertlm::explore {
@@ -68,7 +69,7 @@ std::variant<Constraint, std::string> parse_constraint(const std::string& text) 
     if (!read_number(number, constraint.value))
       return fmt::format("'{}' compares with '{}', which is no number, true or false", text, number);
   }
-  const std::string mistake = report::figure_mistake(constraint.path);
+  const std::string mistake = parameter_of(constraint.path).empty() ? report::figure_mistake(constraint.path) : "";
   if (!mistake.empty()) return mistake;
   return constraint;
 }

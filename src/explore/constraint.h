@@ -8,7 +8,7 @@
 
 namespace rastertlm::explore {
 
-// What is wrong with a text that is none: a sentence.
+// What is wrong with a text that is none: a sentence. Whether the machine has a parameter "machine.PATH" is not seen.
 std::variant<Constraint, std::string> parse_constraint(const std::string& text);
 
 }  // namespace rastertlm::explore

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "src/base/errors.h"
+#include "src/explore/figures.h"
 #include "src/explore/point.h"
 #include "src/explore/shared_pictures.h"
 #include "src/explore/stop_signals.h"
@@ -224,14 +225,15 @@ class Runner {
     checked_ = true;
     const report::Figures figures(report, store_.database().file());
     Diagnostics diagnostics;
-    for (std::size_t i = 0; i < sweep_.objectives.size(); ++i) {
-      const std::string absent = sweep_.optional[i] ? "" : figures.absent(sweep_.objectives[i].path);
-      if (!absent.empty()) diagnostics.add({sweep_.file, 0, sweep_.objectives[i].path, absent});
-    }
-    for (const Constraint& constraint : sweep_.constraints)
-      if (const std::string absent = figures.absent(constraint.path); !absent.empty())
-        diagnostics.add({sweep_.file, 0, constraint.path, absent});
+    for (std::size_t i = 0; i < sweep_.objectives.size(); ++i)
+      if (!sweep_.optional[i]) add_absent(figures, sweep_.objectives[i].path, diagnostics);
+    for (const Constraint& constraint : sweep_.constraints) add_absent(figures, constraint.path, diagnostics);
     diagnostics.throw_if_any();
+  }
+
+  void add_absent(const report::Figures& figures, const std::string& path, Diagnostics& diagnostics) const {
+    const std::string absent = parameter_of(path).empty() ? figures.absent(path) : "";
+    if (!absent.empty()) diagnostics.add({sweep_.file, 0, path, absent});
   }
 
   const Sweep& sweep_;

@@ -7,6 +7,7 @@
 
 #include "src/base/digest.h"
 #include "src/base/errors.h"
+#include "src/explore/figures.h"
 #include "src/report/figure_path.h"
 
 namespace rastertlm::explore {
@@ -221,12 +222,10 @@ void Store::complete_figures(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     std::vector<std::pair<std::int64_t, std::optional<double>>> found;
     Statement lacking(database_,
-                      "SELECT id, report FROM result WHERE state = 'done' AND NOT EXISTS (SELECT 1 FROM figure WHERE "
+                      "SELECT id FROM result WHERE state = 'done' AND NOT EXISTS (SELECT 1 FROM figure WHERE "
                       "figure.result = result.id AND figure.path = ?)");
     lacking.bind(1, path);
-    while (lacking.step())
-      found.emplace_back(lacking.integer(0),
-                         report::Figures(expanded(lacking.text(1), database_.file()), database_.file()).value(path));
+    while (lacking.step()) found.emplace_back(lacking.integer(0), figure(lacking.integer(0), path));
     if (found.empty()) continue;
     Transaction transaction(database_);
     Statement add(database_, "INSERT INTO figure VALUES (?, ?, ?)");
@@ -252,6 +251,18 @@ std::string Store::report(std::int64_t result) {
   const bool there = statement.bind(1, result).step();
   const std::string bytes = there ? statement.text(0) : std::string();
   return bytes.empty() ? bytes : expanded(bytes, database_.file());
+}
+
+std::optional<double> Store::figure(std::int64_t result, const std::string& path) {
+  Statement stored(database_, "SELECT value FROM figure WHERE result = ? AND path = ?");
+  if (stored.bind(1, result).bind(2, path).step())
+    return stored.is_null(0) ? std::nullopt : std::optional(stored.real(0));
+  const std::string text = report(result);
+  if (text.empty()) return std::nullopt;
+  Statement machine(database_,
+                    "SELECT toml FROM configuration JOIN result ON digest = config_digest WHERE result.id = ?");
+  const std::string toml = machine.bind(1, result).step() ? expanded(machine.text(0), database_.file()) : "";
+  return figure_of(path, report::Figures(text, database_.file()), toml);
 }
 
 std::string Store::any_report() {

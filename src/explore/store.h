@@ -66,6 +66,8 @@ class Store {
   bool has_scene(const std::string& digest);
   // The report.json of a result; "" where it has none.
   std::string report(std::int64_t result);
+  // A figure of a result that is done; none where it has none.
+  std::optional<double> figure(std::int64_t result, const std::string& path);
   // The first report of all; "" where there is none.
   std::string any_report();
 

@@ -7,6 +7,7 @@
 
 #include "src/base/errors.h"
 #include "src/explore/constraint.h"
+#include "src/explore/figures.h"
 #include "src/explore/store.h"
 #include "src/report/figure_path.h"
 
@@ -51,7 +52,7 @@ class Reading {
     if (!report.empty()) {
       const report::Figures figures(report, database_.file());
       for (Objective& one : table_.objectives)
-        if (one.unit.empty()) one.unit = figures.unit(one.path);
+        if (one.unit.empty() && parameter_of(one.path).empty()) one.unit = figures.unit(one.path);
     }
     Statement condition(database_, "SELECT text FROM condition WHERE sweep = ? ORDER BY position");
     condition.bind(1, id_);
@@ -111,8 +112,7 @@ class Reading {
       figure_.run();
       return value;
     }
-    const std::string report = store_.report(result);
-    return report.empty() ? std::nullopt : report::Figures(report, database_.file()).value(path);
+    return store_.figure(result, path);
   }
 
   std::vector<std::uint8_t> picture(const std::string& digest) {

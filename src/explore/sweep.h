@@ -70,8 +70,8 @@ struct Sweep {
   bool baseline = false;  // every axis has a start, and the point of all of them belongs to the sweep
 };
 
-// Reads and checks a sweep file with the machines and scenes that it names. Throws InputError with everything that is
-// wrong in them.
-Sweep read_sweep(const std::string& file);
+// Reads and checks a sweep file with the machines and scenes that it names; `sets` are arguments of --set, for every
+// point, and go before the file's own. Throws InputError with everything that is wrong in them.
+Sweep read_sweep(const std::string& file, const std::vector<std::string>& sets = {});
 
 }  // namespace rastertlm::explore

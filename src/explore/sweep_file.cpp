@@ -161,7 +161,8 @@ void VaryFile::declare(parameter::Table& table) {
 }
 
 void ObjectiveFile::declare(parameter::Table& table) {
-  table.text("path", path, about("A figure of report.json: answer.frame_rate_hz, sum(memories[].total_bits).", true));
+  table.text("path", path,
+             about("A figure of report.json, or a number of the machine: machine.host.computation_units.", true));
   table.choice("sense", sense, {"minimise", "maximise"}, about("Which way is better.", true));
   table.boolean("optional", optional, about("Whether machines of the sweep may have no such figure."));
 }

@@ -9,8 +9,10 @@
 
 #include "src/base/errors.h"
 #include "src/config/document.h"
+#include "src/config/overrides.h"
 #include "src/config/value_text.h"
 #include "src/explore/constraint.h"
+#include "src/explore/figures.h"
 #include "src/explore/ranges.h"
 #include "src/explore/sweep.h"
 #include "src/explore/sweep_file.h"
@@ -31,8 +33,9 @@ std::string beside(const std::string& file, const std::string& named) {
 
 class Checking {
  public:
-  Checking(const SweepFile& file, Sweep& sweep, Diagnostics& diagnostics)
-      : file_(file), sweep_(sweep), diagnostics_(diagnostics) {}
+  Checking(const SweepFile& file, const std::vector<config::Override>& overrides, Sweep& sweep,
+           Diagnostics& diagnostics)
+      : file_(file), overrides_(overrides), sweep_(sweep), diagnostics_(diagnostics) {}
 
   void run() {
     files();
@@ -93,6 +96,13 @@ class Checking {
       const Settable::Checked result = checked(plain_, setting.path, &setting.value);
       if (!result.mistake.empty()) add(setting.line, "set." + setting.path, result.mistake);
       sweep_.sets.push_back(run::override_of(setting.path, setting.value));
+    }
+    for (const config::Override& override : overrides_) {
+      const config::Raw value = override.value ? *override.value : config::Raw{override.text};
+      const Settable::Checked result = checked(plain_, override.path, &value);
+      if (!result.mistake.empty()) diagnostics_.add({"--set", 0, override.path, result.mistake});
+      std::erase_if(sweep_.sets, [&](const config::Override& set) { return set.path == override.path; });
+      sweep_.sets.push_back(override);
     }
     return diagnostics_.list().size() == before;
   }
@@ -233,18 +243,31 @@ class Checking {
     for (std::size_t i = 0; i < file_.objectives.size(); ++i) {
       const ObjectiveFile& objective = file_.objectives[i];
       const std::string key = fmt::format("objective[{}].path", i);
-      std::string mistake = objective.path.empty() ? "" : report::figure_mistake(objective.path);
+      std::string mistake = objective.path.empty() ? "" : figure_mistake(objective.path);
       if (mistake.empty() && !paths.insert(objective.path).second) mistake = "stands there twice";
       if (!mistake.empty()) add(file_.line_of(key), key, mistake);
-      sweep_.objectives.push_back({objective.path, report::figure_unit(objective.path), objective.sense});
+      sweep_.objectives.push_back({objective.path, figure_unit(objective.path), objective.sense});
       sweep_.optional.push_back(objective.optional);
     }
     if (file_.objectives.empty()) add(0, "objective", "nothing counts: give an [[objective]]");
     for (const Word& word : file_.constraints) {
       auto parsed = parse_constraint(word.text);
       if (const auto* mistake = std::get_if<std::string>(&parsed)) add(word.line, "constraints", *mistake);
-      if (const auto* constraint = std::get_if<Constraint>(&parsed)) sweep_.constraints.push_back(*constraint);
+      if (const auto* constraint = std::get_if<Constraint>(&parsed)) {
+        if (const std::string wrong = figure_mistake(constraint->path); !wrong.empty())
+          add(word.line, "constraints", wrong);
+        sweep_.constraints.push_back(*constraint);
+      }
     }
+  }
+
+  std::string figure_mistake(const std::string& path) {
+    const std::string parameter = parameter_of(path);
+    return parameter.empty() ? report::figure_mistake(path) : checked(plain_, parameter, nullptr).mistake;
+  }
+  std::string figure_unit(const std::string& path) {
+    const std::string parameter = parameter_of(path);
+    return parameter.empty() ? report::figure_unit(path) : checked(plain_, parameter, nullptr).unit;
   }
 
   Vary* axis_named(const std::string& path) {
@@ -319,6 +342,7 @@ class Checking {
   }
 
   const SweepFile& file_;
+  const std::vector<config::Override>& overrides_;
   Sweep& sweep_;
   Diagnostics& diagnostics_;
   run::InputFiles inputs_;
@@ -328,8 +352,9 @@ class Checking {
 
 }  // namespace
 
-Sweep read_sweep(const std::string& file) {
+Sweep read_sweep(const std::string& file, const std::vector<std::string>& sets) {
   Diagnostics diagnostics;
+  const std::vector<config::Override> overrides = config::parse_overrides(sets, diagnostics);
   const SweepFile written = read_sweep_file(file, diagnostics);
   Sweep sweep;
   sweep.file = file;
@@ -341,7 +366,7 @@ Sweep read_sweep(const std::string& file) {
   sweep.frames = static_cast<std::uint64_t>(written.frames);
   sweep.reference = written.reference;
   sweep.thumbnails = written.thumbnails;
-  Checking(written, sweep, diagnostics).run();
+  Checking(written, overrides, sweep, diagnostics).run();
   const bool drawn = sweep.mode == Mode::random || sweep.mode == Mode::latin_hypercube;
   if (drawn && sweep.points == 0)
     diagnostics.add({file, 0, "points", "required key is missing: how many points are drawn"});

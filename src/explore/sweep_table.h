@@ -18,7 +18,8 @@ struct Axis {
 
 enum class Sense { minimise, maximise };
 
-// A figure of report.json: "answer.frame_rate_hz", "budgets[line_start].used".
+// A figure of report.json, "answer.frame_rate_hz", "budgets[line_start].used", or of the machine itself,
+// "machine.host.computation_units".
 struct Objective {
   std::string path;
   std::string unit;

@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "src/base/errors.h"
+#include "src/explore/figures.h"
 #include "src/explore/thumbnail.h"
 #include "src/report/figure_path.h"
 
@@ -111,9 +112,10 @@ void simulate(const Work& work, PointResult& result) {
   const report::Contents contents{run::simulate(work.inputs, options, sink), false};
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const report::Figures figures(contents);
-  for (const std::string& path : work.figures) result.figures.emplace_back(path, figures.value(path));
   result.report = compressed(figures.json());
-  result.machine_toml = compressed(run::resolved_machine_toml(work.inputs));
+  const std::string machine = run::resolved_machine_toml(work.inputs);
+  result.machine_toml = compressed(machine);
+  for (const std::string& path : work.figures) result.figures.emplace_back(path, figure_of(path, figures, machine));
   if (work.scene_toml) result.scene_toml = compressed(run::resolved_scene_toml(work.inputs));
 }
 

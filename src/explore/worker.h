@@ -20,7 +20,7 @@ struct Work {
   bool reference = true;
   bool thumbnail = true;
   bool scene_toml = true;                   // send the resolved scene
-  const std::vector<std::string>& figures;  // paths, of the report
+  const std::vector<std::string>& figures;  // paths
   SharedPictures* exact = nullptr;          // none: nothing is shared
   bool renders = false;                     // it adds to `exact` what it renders
 };

@@ -215,5 +215,46 @@ TEST_F(StoreTest, MergeRefusesStoresOfOtherSweepsAndAnOutThatIsThere) {
               HasSubstr("is there already: --resume"));
 }
 
+TEST_F(StoreTest, AMillionPointsAreAskedForTwice) {
+  write("sweep.toml", sweep("[[vary]]\npath = \"host.link_mbit_per_s\"\nfrom = 1\nto = 1000\nstep = 1\n"
+                            "[[vary]]\npath = \"host.link_set_up_cycles\"\nfrom = 0\nto = 999\nstep = 1\n"));
+  const Outcome outcome = run(run_sweep({"--jobs", "2"}));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, testing::MatchesRegex(".*the sweep has 1,000,000 points here, about [0-9]+ (minutes|hours) "
+                                                 "with 2 jobs.*--yes simulates more than 100,000\n"));
+  EXPECT_EQ(names().count("s.sqlite"), 0U);
+  // A share of it is small enough.
+  EXPECT_EQ(run(run_sweep({"--shard", "1/100000"})).exit_code, 0);
+}
+
+TEST_F(StoreTest, AFigureThatNoReportHasStopsTheSweep) {
+  write("sweep.toml", grid(30) + "[[objective]]\npath = \"budgets[line_strat].used\"\nsense = \"minimise\"\n");
+  const Outcome outcome = run(run_sweep());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("sweep.toml: budgets[line_strat].used: the machine's report has no "
+                                     "budgets[line_strat]; nearest: 'line_start'"));
+  // What had come is kept, and serves the sweep that is right; so does a figure that was not asked for then.
+  const std::size_t kept = results().size();
+  EXPECT_GT(kept, 0U);
+  write("sweep.toml", grid(30) +
+                          "[[objective]]\npath = \"budgets[line_start].used\"\nsense = \"minimise\"\n"
+                          "[[objective]]\npath = \"machine.host.link_mbit_per_s\"\nsense = \"minimise\"\n");
+  EXPECT_THAT(run(run_sweep({"--resume"})).out, HasSubstr(fmt::format("{} simulated, {} had", 60 - kept, kept)));
+  for (const explore::Row& row : table().rows) {
+    EXPECT_GT(row.figures.at(2).value_or(0.0), 0.0);
+    EXPECT_EQ(row.figures.at(3), std::stod(table().axes[0].values[row.values[0]]));
+  }
+}
+
+TEST_F(StoreTest, SetGoesBeforeTheSweep) {
+  write("sweep.toml",
+        sweep("[[vary]]\npath = \"decision_unit.topology\"\nvalues = [\"tree\"]\n", "set.video.lines = 32\n") +
+            "[[objective]]\npath = \"video.lines\"\nsense = \"minimise\"\n");
+  ASSERT_EQ(run(run_sweep({"--set", "video.lines=16"})).exit_code, 0);
+  EXPECT_EQ(table().rows.at(0).figures.at(2), 16.0);
+  EXPECT_THAT(run(run_sweep({"--resume", "--set", "video.line=16"})).err,
+              HasSubstr("--set: video.line: unknown key 'video.line'; nearest known: 'video.lines'"));
+}
+
 }  // namespace
 }  // namespace rastertlm::test

@@ -1,0 +1,127 @@
+// The sweeps of configs/sweeps, each on a small screen: they run whole, and say what their structure says.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "tests/src/explore/explore_program.h"
+
+namespace rastertlm::test {
+namespace {
+
+using testing::HasSubstr;
+
+class ReadySweepTest : public ExploreTest {
+ protected:
+  // The table of the sweep after a run on 64 x 48.
+  explore::SweepTable table_of(const std::string& name) {
+    const std::string file = std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps/" + name + ".toml";
+    const Outcome outcome = run({"explore", "run", file, "--store", "s.sqlite", "--jobs", "2", "--set",
+                                 "video.columns=64", "--set", "video.lines=48"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(run({"explore", "show", "s.sqlite"}).out, HasSubstr("Answer: "));
+    explore::SweepTable found = table();
+    std::size_t points = 1;
+    for (const explore::Axis& axis : found.axes) points *= axis.values.size();
+    EXPECT_EQ(found.rows.size(), points);
+    EXPECT_FALSE(found.question.empty());
+    EXPECT_TRUE(found.baseline.has_value());
+    for (const explore::Row& row : found.rows) {
+      EXPECT_EQ(row.state, explore::State::done) << row.number << ": " << row.error;
+      for (const std::optional<double>& figure : row.figures) EXPECT_TRUE(figure.has_value()) << row.number;
+    }
+    return found;
+  }
+  // The figure of an objective, for the row with these values of the axes.
+  static double figure(const explore::SweepTable& table, const std::string& objective,
+                       const std::vector<std::string>& values) {
+    for (const explore::Row& row : table.rows) {
+      bool same = true;
+      for (std::size_t axis = 0; axis < values.size(); ++axis)
+        same = same && table.axes[axis].values[row.values[axis]] == values[axis];
+      for (std::size_t i = 0; same && i < table.objectives.size(); ++i)
+        if (table.objectives[i].path == objective) return row.figures[i].value();
+    }
+    throw std::out_of_range(objective);
+  }
+};
+
+// A pipeline's last of N processors is N - 1 stages behind the first; a tree has them all side by side.
+TEST_F(ReadySweepTest, PipelineOrTree) {
+  const explore::SweepTable table = table_of("pipeline_or_tree");
+  const auto skew = [&](const char* topology, const std::string& processors) {
+    return figure(table, "budgets[pipeline_skew].used", {topology, processors});
+  };
+  for (const int processors : {8, 32, 128, 512}) {
+    const std::string now = std::to_string(processors);
+    const std::string next = std::to_string(4 * processors);
+    EXPECT_EQ(skew("pipeline", next) - skew("pipeline", now), 8.0 * 3.0 * processors);
+    EXPECT_EQ(skew("tree", next), skew("tree", now));
+  }
+}
+
+TEST_F(ReadySweepTest, Transputers) {
+  const explore::SweepTable table = table_of("transputers");
+  for (const std::string units : {"1", "2", "4", "6", "8", "12", "16"}) {
+    EXPECT_EQ(figure(table, "machine.host.computation_units", {units, "t9000"}), std::stod(units));
+    EXPECT_GE(figure(table, "answer.headroom", {units, "t800_30"}),
+              figure(table, "answer.headroom", {units, "t800_20"}));
+  }
+  EXPECT_TRUE(std::any_of(table.rows.begin(), table.rows.end(), [](const explore::Row& row) { return row.allowed; }));
+  EXPECT_TRUE(std::any_of(table.rows.begin(), table.rows.end(), [](const explore::Row& row) { return !row.allowed; }));
+}
+
+// Two banks of a table are twice the bits of one.
+TEST_F(ReadySweepTest, Loaders) {
+  const explore::SweepTable table = table_of("loaders");
+  const std::string bits = "sum(memories[].total_bits)";
+  const std::string late = "sum(images[].late_table_lines)";
+  for (const std::string materials : {"4", "8", "16"}) {
+    EXPECT_EQ(figure(table, late, {"68000s in the frame", materials}), 0.0);
+    EXPECT_GT(figure(table, late, {"68000s in the retrace", materials}), 0.0);
+    EXPECT_GT(figure(table, bits, {"68000s in the frame", materials}),
+              figure(table, bits, {"68000s in the retrace", materials}));
+    EXPECT_EQ(figure(table, bits, {"68000s in the frame", materials}),
+              figure(table, bits, {"sequencer of 60 ns in the frame", materials}));
+  }
+}
+
+TEST_F(ReadySweepTest, WordLengths) {
+  const explore::SweepTable table = table_of("word_lengths");
+  const auto bits = [&](const char* word, const char* normal) {
+    return figure(table, "sum(memories[].total_bits)", {word, normal});
+  };
+  // A bit of every normal costs the same at every word of edges and depth.
+  EXPECT_EQ(bits("20", "10") - bits("20", "8"), bits("32", "14") - bits("32", "12"));
+  EXPECT_GT(figure(table, "max(images[].error.rmse_level)", {"28", "8"}),
+            figure(table, "max(images[].error.rmse_level)", {"28", "14"}));
+}
+
+TEST_F(ReadySweepTest, SpanUnits) {
+  const explore::SweepTable table = table_of("span_units");
+  for (const std::string units : {"1", "2", "4", "8"})
+    for (const std::string preset : {"dram_100", "sram_25", "sram_15"}) {
+      EXPECT_EQ(figure(table, "machine.span_unit.units", {units, preset, "4"}), std::stod(units));
+      EXPECT_EQ(figure(table, "logic[frame store: data].count", {units, preset, "4"}), 4.0 * 64.0);
+      EXPECT_GE(figure(table, "budgets[depth_complexity.drawing].available", {units, preset, "8"}),
+                figure(table, "budgets[depth_complexity.drawing].available", {units, preset, "1"}));
+    }
+}
+
+TEST_F(ReadySweepTest, Resolutions) {
+  const explore::SweepTable table = table_of("resolutions");
+  for (const std::string screen : {"512 x 512 at 50 Hz", "640 x 480 at 60 Hz", "1280 x 720 at 60 Hz"})
+    EXPECT_GE(figure(table, "answer.headroom", {screen, "2", "28 bits"}),
+              figure(table, "answer.headroom", {screen, "1", "28 bits"}));
+}
+
+// Nobody adds one without a test above.
+TEST_F(ReadySweepTest, AllAreTested) {
+  std::set<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps"))
+    found.insert(entry.path().stem().string());
+  EXPECT_EQ(found, (std::set<std::string>{"loaders", "pipeline_or_tree", "resolutions", "span_units", "transputers",
+                                          "word_lengths"}));
+}
+
+}  // namespace
+}  // namespace rastertlm::test
