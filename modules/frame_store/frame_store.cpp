@@ -48,6 +48,26 @@ void FrameStore::begin_line(Buffer& buffer, std::size_t line) const {
 
 std::uint32_t FrameStore::draw(std::span<const span_unit::Span> spans, std::uint32_t object, std::uint32_t material,
                                std::uint64_t* won) {
+  StoreRequest request;
+  request.object = object;
+  request.material = material;
+  request.won = won;
+  return draw(request, spans);
+}
+
+std::uint32_t FrameStore::draw_levels(std::span<const span_unit::Span> spans, std::span<const std::uint32_t> levels,
+                                      std::uint32_t object, std::uint32_t material, std::uint64_t* won) {
+  given_.resize(std::max(given_.size(), levels.size() + kSparePixels));
+  std::copy(levels.begin(), levels.end(), given_.begin());
+  StoreRequest request;
+  request.given_levels = given_.data();
+  request.object = object;
+  request.material = material;
+  request.won = won;
+  return draw(request, spans);
+}
+
+std::uint32_t FrameStore::draw(StoreRequest& request, std::span<const span_unit::Span> spans) {
   Buffer& buffer = buffers_[drawn_];
   std::uint64_t pixels = 0;
   for (const span_unit::Span& span : spans) pixels += span.count;
@@ -55,12 +75,9 @@ std::uint32_t FrameStore::draw(std::span<const span_unit::Span> spans, std::uint
   if (!spans.empty() && std::memchr(buffer.blank.data() + spans.front().line, 1, spans.size()) != nullptr)
     for (const span_unit::Span& span : spans)
       if (span.count > 0 && buffer.blank[span.line] != 0) begin_line(buffer, span.line);
-  StoreRequest request;
   request.spans = spans.data();
   request.count = spans.size();
   request.pixels = format_.pixels;
-  request.object = object;
-  request.material = material;
   request.test = parameters_.depth_test;
   request.columns = format_.columns;
   request.levels = buffer.levels.data();
@@ -70,7 +87,6 @@ std::uint32_t FrameStore::draw(std::span<const span_unit::Span> spans, std::uint
     request.objects = buffer.objects.data();
     request.materials = buffer.materials.data();
   }
-  request.won = won;
   const std::uint64_t kept = kernels_.draw(request);
   if (!buffer.coverage.empty())
     for (const span_unit::Span& span : spans) {

@@ -50,6 +50,10 @@ class FrameStore {
   // words as hold them.
   std::uint32_t draw(std::span<const span_unit::Span> spans, std::uint32_t object, std::uint32_t material,
                      std::uint64_t* won = nullptr);
+  // The same with levels that are given, of the spans' pixels one after the other: red, green, blue from the low byte
+  // on. Depth is the registers'.
+  std::uint32_t draw_levels(std::span<const span_unit::Span> spans, std::span<const std::uint32_t> levels,
+                            std::uint32_t object, std::uint32_t material, std::uint64_t* won = nullptr);
   // What was drawn is shown; where there are two buffers, the other one is drawn.
   void swap();
 
@@ -74,6 +78,7 @@ class FrameStore {
     std::vector<std::uint8_t> blank;
   };
   void resize(Buffer& buffer) const;
+  std::uint32_t draw(StoreRequest& request, std::span<const span_unit::Span> spans);
   void begin_line(Buffer& buffer, std::size_t line) const;
   void copy_lines(std::size_t begin, std::size_t end, frame::Frame& out) const;
   const Buffer& shown() const { return buffers_[two_ ? 1 - drawn_ : drawn_]; }
@@ -90,6 +95,7 @@ class FrameStore {
   std::size_t drawn_ = 0;  // the other, or the same where there is one, is shown
   frame::Frame noted_;     // line by line
   StoreCounters counters_;
+  std::vector<std::uint32_t> given_;  // levels, with room behind them
 };
 
 }  // namespace rastertlm::frame_store

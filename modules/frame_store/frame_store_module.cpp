@@ -77,20 +77,33 @@ void FrameStoreModule::clear(std::uint64_t until_ps) {
   }
 }
 
+// One span, of whose payload that many pixels come before.
+std::uint32_t FrameStoreModule::draw_span(const SpanPayload& payload, const span_unit::Span& span,
+                                          std::uint64_t pixels_before) {
+  std::uint64_t* const won = won_.empty() ? nullptr : won_.data();
+  if (payload.levels.empty()) return store_.draw({&span, 1}, payload.object, payload.material, won);
+  return store_.draw_levels({&span, 1}, payload.levels.subspan(pixels_before, span.count), payload.object,
+                            payload.material, won);
+}
+
 // A span is seen from the instant at which it begins.
 void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay) {
   if (quick_ && won_.empty() && !reader_) {
-    const std::uint64_t kept = store_.draw(payload.spans, payload.object, payload.material);
+    const std::uint64_t kept =
+        payload.levels.empty() ? store_.draw(payload.spans, payload.object, payload.material)
+                               : store_.draw_levels(payload.spans, payload.levels, payload.object, payload.material);
     drawing_accesses_ += layout_.span_accesses(0, payload.pixels, kept, nullptr);
     return;
   }
-  std::uint64_t* const won = won_.empty() ? nullptr : won_.data();
   const std::uint64_t now = stream::picoseconds_now();
   std::uint64_t until = now + delay.value();
+  std::uint64_t pixels = 0;
   for (const span_unit::Span& span : payload.spans) {
     if (reader_) reader_->advance(until);
-    const std::uint32_t kept = store_.draw({&span, 1}, payload.object, payload.material, won);
-    const std::uint64_t accesses = layout_.span_accesses(span.column, span.count, kept, won);
+    const std::uint32_t kept = draw_span(payload, span, pixels);
+    pixels += span.count;
+    const std::uint64_t accesses =
+        layout_.span_accesses(span.column, span.count, kept, won_.empty() ? nullptr : won_.data());
     drawing_accesses_ += accesses;
     if (!quick_) until = schedule_.serve(until, accesses);
   }

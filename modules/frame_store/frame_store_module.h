@@ -53,6 +53,7 @@ class FrameStoreModule : public sc_core::sc_module {
   void receive(SpanPayload& payload, sc_core::sc_time& delay);
   void begin_frame(SpanPayload& payload, sc_core::sc_time& delay);
   void draw(const SpanPayload& payload, sc_core::sc_time& delay);
+  std::uint32_t draw_span(const SpanPayload& payload, const span_unit::Span& span, std::uint64_t pixels_before);
   void end_frame(SpanPayload& payload, const sc_core::sc_time& delay);
   void clear(std::uint64_t until_ps);
   void send_read(const ScreenReader::Line& line, const frame::RgbLine& levels);

@@ -16,6 +16,9 @@ inline constexpr std::size_t kSparePixels = 32;  // behind the last pixel of a p
 struct StoreRequest {
   const span_unit::Span* spans = nullptr;  // on the screen; those without pixels are passed over
   std::size_t count = 0;
+  // Levels of the spans' pixels, span after span, as the plane has them; read up to kSparePixels behind the last. Null:
+  // from the spans' registers.
+  const std::uint32_t* given_levels = nullptr;
   span_unit::PixelFormat pixels;
   std::uint32_t object = 0;
   std::uint32_t material = 0;

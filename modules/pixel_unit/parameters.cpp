@@ -14,11 +14,9 @@ void PixelUnitParameters::declare(parameter::Table& table) {
   table.integer("pixel_unit.latency_cycles", latency_cycles, {1, 10000},
                 About{"cycles", "From a triangle's first pixel to its levels.", rate});
   table.integer("pixel_unit.cycles_per_line", cycles_per_line, {0, 10000},
-                About{"cycles", "Lost from a line to the next: what the method starts anew.", rate});
+                About{"cycles", "From a line to its first pixel: what the method starts anew.", rate});
   table.integer("pixel_unit.load_cycles", load_cycles, {0, 10000},
-                About{"cycles", "From a load to its first pixel.", rate});
-  table.integer("pixel_unit.shadow_sets", shadow_sets, {0, 1024},
-                About{"sets", "Register sets that the next triangles are written to while one is drawn.", rate});
+                About{"cycles", "From a triangle to its first line.", rate});
 }
 
 }  // namespace rastertlm::pixel_unit

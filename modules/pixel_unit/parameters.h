@@ -15,9 +15,8 @@ struct PixelUnitParameters {
   // Gouraud's (22.8 times).
   std::int64_t cycles_per_pixel = 23;
   std::int64_t latency_cycles = 23;
-  std::int64_t cycles_per_line = 1;  // from a line's last pixel to the next line's first
-  std::int64_t load_cycles = 1;
-  std::int64_t shadow_sets = 1;
+  std::int64_t cycles_per_line = 1;  // from a line to its first pixel
+  std::int64_t load_cycles = 1;      // from a triangle to its first line
 
   // Paths "pixel_unit.clock_ns" ...
   void declare(parameter::Table& table);

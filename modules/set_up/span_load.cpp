@@ -228,6 +228,7 @@ bool slopes_wrap(const ColourTriangle& triangle, const Slopes<double>& depth, co
 void put_span_load(const ColourTriangle& triangle, const SpanFormat& format, span_unit::TriangleLoad& load) {
   load.count = 0;
   load.object = triangle.object;
+  load.shading = triangle.shading;
   load.material = triangle.material;
   const auto [top, middle, bottom] = from_top(triangle.corners);
   const int q = triangle.fraction_bits;

@@ -12,6 +12,10 @@
 #include "src/geometry/counted.h"
 #include "src/geometry/snapping.h"
 
+namespace rastertlm::pixel_unit {
+struct PixelTriangle;
+}
+
 namespace rastertlm::set_up {
 
 // What the span unit is to draw.
@@ -22,6 +26,8 @@ struct ColourTriangle {
   std::array<double, 3> depth{};                  // at the corners, in units of the depth word
   std::uint32_t object = 0;                       // from 1
   std::uint32_t material = 0;
+  // Where a pixel unit shades it: colours are nothing then. Stays where it is until the frame's end.
+  const pixel_unit::PixelTriangle* shading = nullptr;
 };
 
 struct SpanFormat {

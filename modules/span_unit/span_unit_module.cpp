@@ -124,6 +124,7 @@ std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, const DrawnLines& dr
   payload_.kind = SpanPayload::Kind::spans;
   payload_.spans = drawn.spans;
   payload_.pixels = drawn.pixels;
+  payload_.shading = load.shading;
   payload_.object = load.object;
   payload_.material = load.material;
   link_.record(drawn.pixels, Cycles(drawn.pixels));

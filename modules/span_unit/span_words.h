@@ -8,6 +8,10 @@
 
 #include "modules/span_unit/span.h"
 
+namespace rastertlm::pixel_unit {
+struct PixelTriangle;
+}
+
 namespace rastertlm::span_unit {
 
 // A set of registers, quadratic on the screen: from pixel to pixel I += dI, dI += xx; from line to line I += dIstart
@@ -65,8 +69,11 @@ struct TriangleLoad {
   std::size_t count = 0;
   bool wraps = false;           // prestep: a slope is more than its register holds as a signed number
   bool second_goes_on = false;  // with the start edge and its registers; otherwise with the end edge
-  std::uint32_t object = 0;     // observer: from 1
-  std::uint32_t material = 0;   // observer
+  // For a pixel unit behind the span unit, which shades the triangle's pixels; stays where it is until the frame's end.
+  // Null: the registers hold its colours.
+  const pixel_unit::PixelTriangle* shading = nullptr;
+  std::uint32_t object = 0;    // observer: from 1
+  std::uint32_t material = 0;  // observer
 };
 
 }  // namespace rastertlm::span_unit

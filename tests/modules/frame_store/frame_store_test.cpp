@@ -252,6 +252,62 @@ TEST_P(FrameStoreTest, ShowsWhatRegistersOfAnyWidthStepThrough) {
     }
 }
 
+// Levels that are given, of the pixels that the registers would have stepped through: the same planes, counts and bits.
+TEST_P(FrameStoreTest, DrawsGivenLevelsAsItDoesThoseOfRegisters) {
+  using Keep = FrameStore::Keep;
+  for (const Keep keep : {Keep::nothing, Keep::numbers, Keep::everything})
+    for (const bool test : {true, false})
+      for (const bool ties : {true, false}) {
+        if (ties && keep == Keep::nothing) continue;
+        FrameStoreParameters parameters;
+        parameters.depth_test = test;
+        FrameStore::Format format_of_it = format();
+        format_of_it.keep = keep;
+        format_of_it.ties = ties;
+        FrameStore by_registers(parameters, format_of_it, GetParam()), given(parameters, format_of_it, GetParam());
+        by_registers.clear();
+        given.clear();
+        std::vector<Drawn> drawn = spans(240);
+        std::shuffle(drawn.begin(), drawn.end(), random_);
+        for (std::size_t i = 0; i < drawn.size(); i += 3) {  // three spans and one
+          const std::size_t count = i % 2 == 0 ? 3 : 1;
+          std::vector<span_unit::Span> list;
+          std::vector<std::uint32_t> levels;
+          for (std::size_t k = i; k < i + count; ++k) {
+            list.push_back(drawn[k].span);
+            levels.insert(levels.end(), drawn[k].levels.begin(), drawn[k].levels.end());
+            for (std::size_t c = 0; c < span_unit::kDepthSet; ++c) drawn[k].span.i[c] = random_();  // nobody looks
+          }
+          std::vector<std::uint64_t> won(kColumns / 64 + 1), won_of_given(won.size());
+          std::uint64_t* const bits = count == 1 ? won.data() : nullptr;
+          std::uint64_t* const bits_of_given = count == 1 ? won_of_given.data() : nullptr;
+          const std::uint32_t kept = by_registers.draw(list, drawn[i].object, 3, bits);
+          for (std::size_t k = 0; k < count; ++k) list[k] = drawn[i + k].span;
+          ASSERT_EQ(given.draw_levels(list, levels, drawn[i].object, 3, bits_of_given), kept);
+          ASSERT_EQ(won_of_given, won);
+        }
+        by_registers.swap();
+        given.swap();
+        frame::Frame a, b;
+        by_registers.observe(a);
+        given.observe(b);
+        EXPECT_EQ(b.depth, a.depth);
+        EXPECT_EQ(b.object, a.object);
+        EXPECT_EQ(b.material, a.material);
+        EXPECT_EQ(b.coverage, a.coverage);
+        frame::RgbLine rgb_a, rgb_b;
+        rgb_a.resize(kColumns);
+        rgb_b.resize(kColumns);
+        for (std::uint32_t line = 0; line < kLines; ++line) {
+          by_registers.scan_out(line, rgb_a);
+          given.scan_out(line, rgb_b);
+          ASSERT_EQ(rgb_b.levels, rgb_a.levels);
+        }
+        EXPECT_EQ(given.counters().fragments_in, by_registers.counters().fragments_in);
+        EXPECT_EQ(given.counters().fragments_kept, by_registers.counters().fragments_kept);
+      }
+}
+
 INSTANTIATE_TEST_SUITE_P(Variants, FrameStoreTest, testing::ValuesIn(available_vector_variants()),
                          [](const auto& one) { return name_of(one.param); });
 
