@@ -107,8 +107,7 @@ std::string moves_table(const SweepTable& table, const Names& names, const WhatI
   return rows.text();
 }
 
-// A row for each objective and condition on the others; a condition that gives the same move as one before is in its
-// row.
+// A row for each objective and condition on the others; conditions that the best move meets anyhow have none.
 std::string best_table(const SweepTable& table, const Names& names, const WhatIf& what_if) {
   std::vector<Column> columns{{"wanted"}, {"where"}, {"best move"}};
   for (const std::string& name : names.objectives) columns.push_back({name, Align::right});
@@ -116,11 +115,13 @@ std::string best_table(const SweepTable& table, const Names& names, const WhatIf
   const std::size_t objectives = table.objectives.size();
   for (std::size_t o = 0; o < objectives; ++o) {
     const BestMoves& best = what_if.best[o];
-    std::vector<std::pair<std::string, std::optional<std::size_t>>> conditions{{"-", best.whatever}};
-    for (std::size_t held = 0; best.whatever && objectives > 2 && held < objectives; ++held)
-      if (held != o) conditions.emplace_back(names.objectives[held] + " no worse", best.while_no_worse[held]);
-    if (best.whatever && objectives > 1)
-      conditions.emplace_back(objectives > 2 ? "no other worse" : names.objectives[1 - o] + " no worse", best.no_worse);
+    const bool free = best.no_worse == best.whatever;  // of charge
+    std::vector<std::pair<std::string, std::optional<std::size_t>>> conditions{
+        {free && best.whatever ? "no other worse" : "whatever the others do", best.whatever}};
+    for (std::size_t held = 0; !free && held < objectives; ++held)
+      if (best.while_no_worse[held] != best.whatever)
+        conditions.emplace_back(names.objectives[held] + " no worse", best.while_no_worse[held]);
+    if (!free && objectives > 2) conditions.emplace_back("no other worse", best.no_worse);
     for (const auto& [condition, move] : conditions) {
       std::vector<std::string> cells{fmt::format("{} {}", wanted_text(table.objectives[o].sense), names.objectives[o]),
                                      condition, "none"};
@@ -176,7 +177,7 @@ std::string what_if_section(const SweepTable& table, const WhatIf& what_if, doub
                      point_text(table, names, start) + ":";
   for (std::size_t o = 0; o < table.objectives.size(); ++o) {
     text += fmt::format("{} {} {}{}", o == 0 ? "" : ",", names.objectives[o], shown_figure(start.figures[o]),
-                        unit_text(table.objectives[o].unit));
+                        unit_text(table.objectives[o].unit, names.objectives[o]));
   }
   text += '\n';
   const bool any = std::ranges::any_of(what_if.moves, [](const Move& move) { return move.row.has_value(); });

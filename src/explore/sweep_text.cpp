@@ -19,8 +19,10 @@ using report::counted;
 using report::grouped;
 using report::TextTable;
 
-std::string with_unit(const std::string& figure, const Objective& objective) {
-  return figure + unit_text(objective.unit);
+// "frame_rate_hz 50 Hz".
+std::string named_figure(const SweepTable& table, const Names& names, const Row& row, std::size_t objective) {
+  return fmt::format("{} {}{}", names.objectives[objective], shown_figure(row.figures[objective]),
+                     unit_text(table.objectives[objective].unit, names.objectives[objective]));
 }
 
 // Below 0 where `a` comes before `b` by its figures, in the objectives' order.
@@ -89,7 +91,7 @@ std::string difference_text(const SweepTable& table, const Names& names, const R
     if (!own || !before) {
       text += shown_figure(own) + " for " + shown_figure(before);
     } else {
-      text += change_text(*own - *before, before, table.objectives[o].unit);
+      text += change_text(*own - *before, before, unit_text(table.objectives[o].unit, names.objectives[o]));
     }
   }
   return text.empty() ? "equal in all objectives" : text;
@@ -118,12 +120,10 @@ std::string answer_section(const SweepTable& table, const Front& front) {
   if (!table.objectives.empty()) {
     const Objective& first = table.objectives.front();
     const auto compared = static_cast<std::size_t>(std::ranges::count(front.compared, true));
-    text += fmt::format(": {} {}, the {} of {}{}", names.objectives.front(),
-                        with_unit(shown_figure(row.figures.front()), first), wanted_text(first.sense),
+    text += fmt::format(": {}, the {} of {}{}", named_figure(table, names, row, 0), wanted_text(first.sense),
                         counted(compared, "point", "points"), met);
     for (std::size_t o = 1; o < table.objectives.size(); ++o)
-      text += fmt::format("{} {} {}", o == 1 ? ", with" : ",", names.objectives[o],
-                          with_unit(shown_figure(row.figures[o]), table.objectives[o]));
+      text += (o == 1 ? ", with " : ", ") + named_figure(table, names, row, o);
   }
   text += ".\n";
   if (table.baseline && *table.baseline == *answer) text += "That is the baseline.\n";

@@ -4,48 +4,53 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "src/report/number_text.h"
 
 namespace rastertlm::explore {
 namespace {
 
-// Where the path's parts begin, the last first. A point within brackets parts nothing: "sum(memories[].words)" is one.
-std::vector<std::size_t> part_starts(const std::string& path) {
-  std::vector<std::size_t> starts;
-  int depth = 0;
-  bool bracket_in_part = false;
-  for (std::size_t i = path.size(); i-- > 0;) {
-    if (path[i] == ']' || path[i] == ')') ++depth;
-    if (path[i] == '[' || path[i] == '(') {
-      --depth;
-      bracket_in_part = true;
-    }
-    if (path[i] != '.' || depth != 0) continue;
-    // What stands in brackets names the thing, what follows it only says which figure of it: they stay together.
-    if (!starts.empty() || bracket_in_part || i == 0 || path[i - 1] != ']') starts.push_back(i + 1);
-    bracket_in_part = false;
+// Names that a path may have, the shortest first, the path itself last.
+std::vector<std::string> candidates(const std::string& path) {
+  std::vector<std::string> names;
+  const std::size_t open = path.find('(');
+  if (open != std::string::npos && path.back() == ')' && open < path.find('[')) {
+    for (const std::string& inner : candidates(path.substr(open + 1, path.size() - open - 2)))
+      names.push_back(path.substr(0, open) + ' ' + inner);
+    names.push_back(path);
+    return names;
   }
-  starts.push_back(0);
-  return starts;
-}
-
-bool is_ending(const std::string& path, const std::string& ending) {
-  return path.ends_with(ending) && (path.size() == ending.size() || path[path.size() - ending.size() - 1] == '.');
+  int depth = 0;
+  for (std::size_t i = path.size(); i-- > 0;) {
+    if (path[i] == ']') ++depth;
+    if (path[i] == '[') --depth;
+    if (path[i] != '.' || depth != 0) continue;
+    const std::string ending = path.substr(i + 1);
+    // What follows "budgets[line_start]" says which figure of it, and is none without its name.
+    const std::size_t bracket = path[i - 1] == ']' ? path.rfind('[', i) : std::string::npos;
+    const std::string element = bracket == std::string::npos ? "" : path.substr(bracket + 1, i - bracket - 2);
+    const bool named = element.find_first_not_of("0123456789") != std::string::npos;
+    names.push_back(named ? element + ' ' + ending : ending);
+  }
+  names.push_back(path);
+  return names;
 }
 
 }  // namespace
 
 std::vector<std::string> short_names(const std::vector<std::string>& paths) {
+  std::vector<std::vector<std::string>> possible;
+  std::map<std::string, std::size_t> claimed;  // by how many paths
+  for (const std::string& path : paths) {
+    possible.push_back(candidates(path));
+    for (const std::string& name : possible.back()) ++claimed[name];
+  }
   std::vector<std::string> names;
   names.reserve(paths.size());
-  for (const std::string& path : paths) {
-    std::string name = path;
-    for (const std::size_t start : part_starts(path)) {
-      name = path.substr(start);
-      if (std::ranges::count_if(paths, [&](const std::string& other) { return is_ending(other, name); }) <= 1) break;
-    }
-    names.push_back(std::move(name));
+  for (const std::vector<std::string>& own : possible) {
+    const auto alone = std::ranges::find_if(own, [&](const std::string& name) { return claimed[name] == 1; });
+    names.push_back(alone == own.end() ? own.back() : *alone);
   }
   return names;
 }
@@ -71,8 +76,8 @@ std::string in_one_line(const std::string& text) {
   return line;
 }
 
-std::string unit_text(const std::string& unit) {
-  return unit.empty() || unit == "fraction" ? "" : ' ' + in_one_line(unit);
+std::string unit_text(const std::string& unit, const std::string& name) {
+  return unit.empty() || unit == "fraction" || name.ends_with(unit) ? "" : ' ' + in_one_line(unit);
 }
 
 std::string shown_figure(const std::optional<double>& figure) {
@@ -84,7 +89,7 @@ std::string shown_figure(const std::optional<double>& figure) {
 std::string change_text(double change) { return fmt::format("{}{}", change > 0.0 ? "+" : "", shown_figure(change)); }
 
 std::string change_text(double change, const std::optional<double>& before, const std::string& unit) {
-  std::string text = change_text(change) + unit_text(unit);
+  std::string text = change_text(change) + unit;
   if (change == 0.0 || !before || *before == 0.0 || !std::isfinite(*before) || !std::isfinite(change)) return text;
   const double part = change / std::abs(*before);
   return fmt::format("{} ({}{})", text, part > 0.0 ? "+" : "", report::percent(part));
@@ -95,7 +100,7 @@ std::string point_text(const SweepTable& table, const Names& names, const Row& r
   for (std::size_t a = 0; a < table.axes.size(); ++a) {
     if (a > 0) text += ", ";
     text += names.axes[a] + " = " + in_one_line(table.axes[a].values.at(row.values[a]));
-    text += unit_text(table.axes[a].unit);
+    text += unit_text(table.axes[a].unit, names.axes[a]);
   }
   return text;
 }

@@ -9,8 +9,10 @@
 
 namespace rastertlm::explore {
 
-// Paths without what they share: the shortest ending, of whole parts, that no other of them has. A part in brackets
-// keeps its name before it: "budgets[line_start].used" never becomes "used".
+// What stands in a table for each path: its shortest ending, of whole parts, that no other could have:
+//   answer.frame_rate_hz              frame_rate_hz
+//   budgets[line_start].used          line_start used
+//   max(images[].error.rmse_level)    max rmse_level
 std::vector<std::string> short_names(const std::vector<std::string>& paths);
 
 // The short names of a table's axes and objectives, found together.
@@ -26,13 +28,14 @@ std::string heading(const std::string& title);
 
 // One line, whatever the text holds.
 std::string in_one_line(const std::string& text);
-// " Hz", what stands behind a figure; empty where there is none, and for a fraction.
-std::string unit_text(const std::string& unit);
+// " Hz", what stands behind a figure of that name; empty where there is none, where the name ends with it, and for a
+// fraction.
+std::string unit_text(const std::string& unit, const std::string& name);
 // 333,333, 0.5094, infinite; "-" where there is none.
 std::string shown_figure(const std::optional<double>& figure);
 // With its sign: "+20"; "0" for none.
 std::string change_text(double change);
-// The same, its unit where one is given, and what part of the figure before it is where that says anything:
+// The same, its unit_text() where one is given, and what part of the figure before it is where that says anything:
 // "+20 Hz (+67 %)".
 std::string change_text(double change, const std::optional<double>& before, const std::string& unit = "");
 // "computation_units = 8, topology = "tree"".
