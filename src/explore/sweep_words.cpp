@@ -31,7 +31,7 @@ std::vector<std::string> candidates(const std::string& path) {
     const std::size_t bracket = path[i - 1] == ']' ? path.rfind('[', i) : std::string::npos;
     const std::string element = bracket == std::string::npos ? "" : path.substr(bracket + 1, i - bracket - 2);
     const bool named = element.find_first_not_of("0123456789") != std::string::npos;
-    names.push_back(named ? element + ' ' + ending : ending);
+    names.push_back(named ? fmt::format("{} {}", element, ending) : ending);
   }
   names.push_back(path);
   return names;
