@@ -43,7 +43,8 @@ inline constexpr auto kSetting = parameter::StatisticKind::setting;
 struct Kinds {
   bool boards = true;  // object processors
   bool spans = true;   // a span unit
-  explicit Kinds(const std::string& platform) : boards(platform != "quadratic"), spans(platform != "imogene") {}
+  explicit Kinds(const std::string& platform)
+      : boards(platform.empty() || platform == "imogene"), spans(platform != "imogene") {}
 };
 
 template <class Visitor>
