@@ -92,7 +92,9 @@ void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay)
     const std::uint64_t kept =
         payload.levels.empty() ? store_.draw(payload.spans, payload.object, payload.material)
                                : store_.draw_levels(payload.spans, payload.levels, payload.object, payload.material);
-    drawing_accesses_ += layout_.span_accesses(0, payload.pixels, kept, nullptr);
+    const std::uint64_t accesses = layout_.span_accesses(0, payload.pixels, kept, nullptr);
+    drawing_accesses_ += accesses;
+    tell_quick(stream::picoseconds_now() + delay.value(), accesses);
     return;
   }
   const std::uint64_t now = stream::picoseconds_now();
@@ -105,9 +107,17 @@ void FrameStoreModule::draw(const SpanPayload& payload, sc_core::sc_time& delay)
     const std::uint64_t accesses =
         layout_.span_accesses(span.column, span.count, kept, won_.empty() ? nullptr : won_.data());
     drawing_accesses_ += accesses;
-    if (!quick_) until = schedule_.serve(until, accesses);
+    if (quick_)
+      tell_quick(until, accesses);
+    else
+      until = schedule_.serve(until, accesses);
   }
   delay = stream::to_time(until - now);
+}
+
+// What keeps up is not scheduled.
+void FrameStoreModule::tell_quick(std::uint64_t begin_ps, std::uint64_t accesses) const {
+  if (watcher_ && accesses > 0) watcher_(false, begin_ps, begin_ps + accesses * parameters_.access_ps());
 }
 
 // Two buffers: the other one is free to be drawn when this one is shown. One: when the screen has shown it once, whole;

@@ -48,12 +48,18 @@ class FrameStoreModule : public sc_core::sc_module {
   std::uint64_t torn_lines(std::uint64_t frame) const { return frame < torn_lines_.size() ? torn_lines_[frame] : 0; }
   // Nothing more will be drawn: sends what is left of screens.
   void finish();
+  // Told when the memory serves spans and clears, or the screen.
+  void watch(const MemorySchedule::Watcher& watcher) {
+    watcher_ = watcher;
+    schedule_.watch(watcher);
+  }
 
  private:
   void receive(SpanPayload& payload, sc_core::sc_time& delay);
   void begin_frame(SpanPayload& payload, sc_core::sc_time& delay);
   void draw(const SpanPayload& payload, sc_core::sc_time& delay);
   std::uint32_t draw_span(const SpanPayload& payload, const span_unit::Span& span, std::uint64_t pixels_before);
+  void tell_quick(std::uint64_t begin_ps, std::uint64_t accesses) const;
   void end_frame(SpanPayload& payload, const sc_core::sc_time& delay);
   void clear(std::uint64_t until_ps);
   void send_read(const ScreenReader::Line& line, const frame::RgbLine& levels);
@@ -81,6 +87,7 @@ class FrameStoreModule : public sc_core::sc_module {
   std::uint64_t begun_ps_ = 0;        // the frame that is drawn: its clear, or its first span
   std::uint64_t begun_accesses_ = 0;  // of drawing and clears until then
   std::uint64_t starved_ = 0;
+  MemorySchedule::Watcher watcher_;
 };
 
 }  // namespace rastertlm::frame_store

@@ -40,11 +40,14 @@ std::uint64_t MemorySchedule::serve(std::uint64_t begin_ps, std::uint64_t access
       // The access during which the burst falls due ends first.
       const std::uint64_t before = std::min(left, (next_burst_ps_ - now - 1) / access_ps_ + 1);
       left -= before;
+      if (watcher_) watcher_(false, now, now + before * access_ps_);
       now += before * access_ps_;
       free_ps_ = now;
       continue;
     }
-    free_ps_ = std::max(next_burst_ps_, free_ps_) + burst_ps_;
+    const std::uint64_t begun = std::max(next_burst_ps_, free_ps_);
+    free_ps_ = begun + burst_ps_;
+    if (watcher_) watcher_(true, begun, free_ps_);
     if (free_ps_ > now) {
       waited_ps_ += free_ps_ - now;
       now = free_ps_;

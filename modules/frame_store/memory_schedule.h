@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "modules/frame_store/memory_layout.h"
 #include "modules/frame_store/parameters.h"
@@ -18,6 +20,10 @@ class MemorySchedule {
   // `timing`: of the video whose lines are read through this port; none where it has its own.
   MemorySchedule(std::uint64_t access_ps, std::optional<video::Timing> timing, std::uint64_t lines,
                  std::uint64_t line_accesses);
+
+  // Told when the memory served spans, or the screen.
+  using Watcher = std::function<void(bool screen, std::uint64_t begin_ps, std::uint64_t end_ps)>;
+  void watch(Watcher watcher) { watcher_ = std::move(watcher); }
 
   // The end of `accesses` that are asked for at `begin_ps`. Requests come in the order of their times.
   std::uint64_t serve(std::uint64_t begin_ps, std::uint64_t accesses);
@@ -42,6 +48,7 @@ class MemorySchedule {
   std::uint64_t free_ps_ = 0;
   std::uint64_t served_ps_ = 0;
   std::uint64_t waited_ps_ = 0;
+  Watcher watcher_;
 };
 
 // A screen that is read through the port that is drawn through must leave something of it: a line's reads, and an

@@ -53,7 +53,7 @@ void SetUpProcessorModule::run() {
 void SetUpProcessorModule::compute(SetUpFrame& frame) {
   while (work_.next()) {
     const Cycles computing = cost_.compute(work_.operations());
-    now_ += computing;
+    spend(stream::Activity::busy, computing);
     frame.computing += computing;
     occupancy_.busy += computing.count();
     for (const span_unit::TriangleLoad& load : work_.loads()) send(load, frame);
@@ -70,14 +70,22 @@ void SetUpProcessorModule::send(const span_unit::TriangleLoad& load, SetUpFrame&
   transport(LoadPayload::Kind::triangle);
   // The processor notices at its next cycle.
   const Cycles blocked = cost_.clock().cycles_at(payload_.blocked_ps);
-  now_ += blocked + writing;
+  spend(stream::Activity::blocked, blocked);
+  const std::uint64_t begin_ps = now_ps();
+  spend(stream::Activity::busy, writing);
   frame.blocked += blocked;
   frame.writing += writing;
   occupancy_.blocked += blocked.count();
   occupancy_.busy += writing.count();
   words_sent_ += words;
   const std::uint64_t bus_words = cost_.bus_words(words);
-  link_.record(bus_words, Cycles(bus_words));
+  link_.record(bus_words, Cycles(bus_words), begin_ps, now_ps());
+}
+
+void SetUpProcessorModule::spend(stream::Activity activity, Cycles cycles) {
+  const std::uint64_t begin_ps = now_ps();
+  now_ += cycles;
+  if (watcher_ && cycles > Cycles(0)) watcher_(activity, begin_ps, now_ps());
 }
 
 void SetUpProcessorModule::transport(LoadPayload::Kind kind) {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "modules/host/cost_model.h"
@@ -46,6 +47,9 @@ class SetUpProcessorModule : public sc_core::sc_module {
   SetUpProcessorModule(const sc_core::sc_module_name& name, SetUpWork& work, const HostCost& cost, Timeline timeline,
                        stream::Link& link);
 
+  // Told what it did, and when.
+  void watch(stream::ActivityWatcher watcher) { watcher_ = std::move(watcher); }
+
   bool finished() const { return finished_; }
   std::uint64_t words_sent() const { return words_sent_; }
   // From the start of the first frame to the end of the last one's set-up.
@@ -56,6 +60,7 @@ class SetUpProcessorModule : public sc_core::sc_module {
   void run();
   void compute(SetUpFrame& frame);
   void send(const span_unit::TriangleLoad& load, SetUpFrame& frame);
+  void spend(stream::Activity activity, Cycles cycles);
   void transport(span_unit::LoadPayload::Kind kind);
   std::uint64_t now_ps() const { return cost_.clock().picoseconds(now_); }
 
@@ -68,6 +73,7 @@ class SetUpProcessorModule : public sc_core::sc_module {
   std::uint64_t words_sent_ = 0;
   stream::Occupancy occupancy_;
   bool finished_ = false;
+  stream::ActivityWatcher watcher_;
 };
 
 }  // namespace rastertlm::host

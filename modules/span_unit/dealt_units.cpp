@@ -82,6 +82,9 @@ void DealtUnits::start(Unit& unit) {
   unit.cycles.starved += there - unit.free - loading;
   unit.cycles.blocked += begin - there;
   buffer_cycles_ += begin - there;
+  tell(unit, UnitWork::starved, unit.free, there - loading);
+  tell(unit, UnitWork::busy, there - loading, there);
+  tell(unit, UnitWork::blocked, there, begin);
   unit.load = unit.waiting.front().load;
   unit.waiting.pop_front();
   unit.starts_ps.push_back(clock_.picoseconds(Cycles(begin)));
@@ -103,13 +106,20 @@ void DealtUnits::draw_span(Unit& unit) {
     taken = std::max(end, clock_.cycles_at(memory_end).count());
   }
   unit.cycles.blocked += taken - end;
+  tell(unit, UnitWork::busy, unit.cycle, end);
+  tell(unit, UnitWork::blocked, end, taken);
   unit.cycle = taken;
   if (unit.drawing()) {
+    tell(unit, UnitWork::busy, unit.cycle, unit.cycle + count(parameters_.line_change_cycles));
     unit.cycle += count(parameters_.line_change_cycles);
     unit.cycles.busy += count(parameters_.line_change_cycles);
   } else {
     unit.free = unit.cycle;
   }
+}
+
+void DealtUnits::tell(const Unit& unit, UnitWork work, std::uint64_t begin, std::uint64_t end) const {
+  if (watcher_ && end > begin) watcher_(static_cast<std::size_t>(&unit - units_.data()), work, begin, end);
 }
 
 SpanCounters DealtUnits::counters() const {

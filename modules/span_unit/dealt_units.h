@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "modules/span_unit/span_unit.h"
@@ -18,6 +19,8 @@ struct UnitCycles {
   std::uint64_t blocked = 0;
 };
 
+enum class UnitWork { busy, starved, blocked };
+
 class DealtUnits {
  public:
   // Takes a span that begins at `begin_ps`; returns when the memory has taken it. Called in the order of time; at the
@@ -25,6 +28,10 @@ class DealtUnits {
   using Store = std::function<std::uint64_t(std::uint64_t begin_ps, const Span& span, const TriangleLoad& load)>;
 
   DealtUnits(const SpanUnitParameters& parameters, std::uint32_t columns, std::uint32_t lines, Store store);
+
+  // Told what a unit did from one cycle to another.
+  using Watcher = std::function<void(std::size_t unit, UnitWork work, std::uint64_t begin, std::uint64_t end)>;
+  void watch(Watcher watcher) { watcher_ = std::move(watcher); }
 
   // The frame's triangles may be drawn from this cycle of the units' clock on.
   void begin_frame(std::uint64_t cycle) { buffer_free_ = cycle; }
@@ -64,6 +71,7 @@ class DealtUnits {
   bool advance();
   void start(Unit& unit);
   void draw_span(Unit& unit);
+  void tell(const Unit& unit, UnitWork work, std::uint64_t begin, std::uint64_t end) const;
   bool has_free_set(const Unit& unit) const;
 
   SpanUnitParameters parameters_;
@@ -73,6 +81,7 @@ class DealtUnits {
   std::size_t turn_ = 0;
   std::uint64_t buffer_free_ = 0;
   std::uint64_t buffer_cycles_ = 0;
+  Watcher watcher_;
 };
 
 }  // namespace rastertlm::span_unit

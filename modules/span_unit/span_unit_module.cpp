@@ -8,6 +8,22 @@ namespace rastertlm::span_unit {
 
 using frame_store::SpanPayload;
 
+namespace {
+
+stream::Activity activity_of(UnitWork work) {
+  switch (work) {
+    case UnitWork::busy:
+      return stream::Activity::busy;
+    case UnitWork::starved:
+      return stream::Activity::starved;
+    case UnitWork::blocked:
+      return stream::Activity::blocked;
+  }
+  return stream::Activity::idle;
+}
+
+}  // namespace
+
 SpanUnitModule::SpanUnitModule(const sc_core::sc_module_name& name, const SpanUnitParameters& parameters,
                                std::uint32_t columns, std::uint32_t lines, stream::Link& link)
     : sc_module(name),
@@ -19,10 +35,10 @@ SpanUnitModule::SpanUnitModule(const sc_core::sc_module_name& name, const SpanUn
       link_(link) {
   bus.register_b_transport(this, &SpanUnitModule::receive);
   if (parameters.units > 1 && parameters.share == Share::triangles)
-    dealt_ = std::make_unique<DealtUnits>(parameters, columns, lines,
-                                          [this](std::uint64_t begin_ps, const Span& span, const TriangleLoad& load) {
-                                            return store(begin_ps, {{&span, 1}, span.count, span.cycles}, load);
-                                          });
+    dealt_ = std::make_unique<DealtUnits>(
+        parameters, columns, lines, [this](std::uint64_t begin_ps, const Span& span, const TriangleLoad& load) {
+          return store(begin_ps, Cycles(span.cycles), {{&span, 1}, span.count, span.cycles}, load);
+        });
 }
 
 void SpanUnitModule::receive(LoadPayload& payload, sc_core::sc_time& delay) {
@@ -88,6 +104,9 @@ void SpanUnitModule::draw(LoadPayload& payload, sc_core::sc_time& delay) {
   occupancy_.starved += there - free_ - loading;
   occupancy_.blocked += start - there;
   blocked_by_buffer_ += start - there;
+  tell(stream::Activity::starved, free_, there - loading);
+  tell(stream::Activity::busy, there - loading, there);
+  tell(stream::Activity::blocked, there, start);
   starts_ps_.push_back(clock_.picoseconds(Cycles(start)));
   if (starts_ps_.size() > static_cast<std::size_t>(std::max<std::int64_t>(parameters_.shadow_sets, 1)))
     starts_ps_.pop_front();
@@ -100,38 +119,57 @@ void SpanUnitModule::draw_from(std::uint64_t cycle, const TriangleLoad& load) {
   const std::uint64_t changes = drawn.spans.empty() ? 0 : (drawn.spans.size() - 1) * line_change;
   occupancy_.busy += changes + drawn.cycles;
   if (memory_keeps_up_) {
-    store(clock_.picoseconds(Cycles(cycle)), drawn, load);
     free_ = cycle + changes + drawn.cycles;
+    store(clock_.picoseconds(Cycles(cycle)), Cycles(free_ - cycle), drawn, load);
+    tell(stream::Activity::busy, cycle, free_);
     return;
   }
   for (const Span& span : drawn.spans) {
+    const std::uint64_t before = cycle;
     if (&span != drawn.spans.data()) cycle += line_change;
     const std::uint64_t end = cycle + span.cycles;
     std::uint64_t taken = end;
     if (span.count > 0) {
       const std::uint64_t begin_ps = clock_.picoseconds(Cycles(cycle));
-      const std::uint64_t memory_end = store(begin_ps, {{&span, 1}, span.count, span.cycles}, load);
+      const std::uint64_t memory_end =
+          store(begin_ps, Cycles(span.cycles), {{&span, 1}, span.count, span.cycles}, load);
       if (memory_end > begin_ps) taken = std::max(end, clock_.cycles_at(memory_end).count());
     }
     occupancy_.blocked += taken - end;
+    tell(stream::Activity::busy, before, end);
+    tell(stream::Activity::blocked, end, taken);
     cycle = taken;
   }
   free_ = cycle;
 }
 
 // Returns when the memory has taken the spans.
-std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, const DrawnLines& drawn, const TriangleLoad& load) {
+std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, Cycles taken, const DrawnLines& drawn,
+                                    const TriangleLoad& load) {
   payload_.kind = SpanPayload::Kind::spans;
   payload_.spans = drawn.spans;
   payload_.pixels = drawn.pixels;
   payload_.shading = load.shading;
   payload_.object = load.object;
   payload_.material = load.material;
-  link_.record(drawn.pixels, Cycles(drawn.pixels));
+  link_.record(drawn.pixels, Cycles(drawn.pixels), begin_ps, begin_ps + clock_.picoseconds(taken));
   const std::uint64_t now = stream::picoseconds_now();
   sc_core::sc_time until = stream::to_time(begin_ps - now);
   out->b_transport(payload_, until);
   return now + until.value();
+}
+
+void SpanUnitModule::watch(const Watcher& watcher) {
+  watcher_ = watcher;
+  if (dealt_)
+    dealt_->watch([this](std::size_t unit, UnitWork work, std::uint64_t begin, std::uint64_t end) {
+      watcher_(unit, activity_of(work), clock_.picoseconds(Cycles(begin)), clock_.picoseconds(Cycles(end)));
+    });
+}
+
+void SpanUnitModule::tell(stream::Activity activity, std::uint64_t begin, std::uint64_t end) const {
+  if (watcher_ && end > begin)
+    watcher_(0, activity, clock_.picoseconds(Cycles(begin)), clock_.picoseconds(Cycles(end)));
 }
 
 std::vector<stream::Occupancy> SpanUnitModule::occupancies() const {

@@ -5,6 +5,7 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <systemc>
 
@@ -27,6 +28,12 @@ class SpanUnitModule : public sc_core::sc_module {
   SpanUnitModule(const sc_core::sc_module_name& name, const SpanUnitParameters& parameters, std::uint32_t columns,
                  std::uint32_t lines, stream::Link& link);
 
+  // Told what a unit did from one time to another, in picoseconds: of each unit that triangles are dealt to, else of
+  // all together.
+  using Watcher =
+      std::function<void(std::size_t unit, stream::Activity activity, std::uint64_t begin_ps, std::uint64_t end_ps)>;
+  void watch(const Watcher& watcher);
+
   std::uint64_t loads_received() const { return loads_received_; }
   std::uint64_t words_loaded() const { return words_loaded_; }
   // From the first frame's start to the end of the unit's last triangle; of each unit that triangles are dealt to, else
@@ -43,9 +50,10 @@ class SpanUnitModule : public sc_core::sc_module {
   void begin_frame(LoadPayload& payload, sc_core::sc_time& delay);
   void end_frame(LoadPayload& payload, sc_core::sc_time& delay);
   void draw(LoadPayload& payload, sc_core::sc_time& delay);
+  void tell(stream::Activity activity, std::uint64_t begin, std::uint64_t end) const;
   std::uint64_t set_free_ps() const;
   void draw_from(std::uint64_t cycle, const TriangleLoad& load);
-  std::uint64_t store(std::uint64_t begin_ps, const DrawnLines& drawn, const TriangleLoad& load);
+  std::uint64_t store(std::uint64_t begin_ps, Cycles taken, const DrawnLines& drawn, const TriangleLoad& load);
 
   SpanUnitParameters parameters_;
   SpanUnit unit_;
@@ -61,6 +69,7 @@ class SpanUnitModule : public sc_core::sc_module {
   std::uint64_t words_loaded_ = 0;
   std::uint64_t blocked_by_buffer_ = 0;
   stream::Occupancy occupancy_;
+  Watcher watcher_;
 };
 
 }  // namespace rastertlm::span_unit

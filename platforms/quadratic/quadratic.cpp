@@ -204,6 +204,14 @@ void Quadratic::hand_on_screens() {
   screens_.clear();
 }
 
+void Quadratic::watch(const Watchers& watchers) {
+  set_up_processor_->watch(watchers.set_up_processor);
+  span_unit_->watch(watchers.span_units);
+  frame_store_->watch(watchers.memory);
+  links_.at(0).watch(watchers.bus);
+  links_.at(1).watch(watchers.pixels);
+}
+
 double Quadratic::frames_per_second() const {
   constexpr double kPicosecond = 1e-12;
   if (frames_.size() < 2) return 0.0;

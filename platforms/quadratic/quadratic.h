@@ -51,6 +51,16 @@ class Quadratic {
   // Machine and scene outlive it. Throws InputError where the machine cannot take the scene. One a process.
   Quadratic(const Machine& machine, const scene::Scene& scene, const Options& options, Sink sink);
 
+  // Told, while it runs, what units did and what crossed the links; before the simulation.
+  struct Watchers {
+    stream::ActivityWatcher set_up_processor;
+    span_unit::SpanUnitModule::Watcher span_units;
+    frame_store::MemorySchedule::Watcher memory;
+    stream::LinkWatcher bus;
+    stream::LinkWatcher pixels;
+  };
+  void watch(const Watchers& watchers);
+
   // Simulates until the last frame has been shown, and checks the identities of conservation (ModelError).
   void run();
 

@@ -183,6 +183,10 @@ std::vector<Budget> quadratic_budgets(const Quadratic& platform) {
   return budgets;
 }
 
+Bottleneck frame_bottleneck(const Quadratic& platform, const quadratic::ShownFrame& frame) {
+  return bottleneck_of(platform.machine(), frame_load(platform, frame), frame_seconds(platform));
+}
+
 Answer quadratic_answer(const Quadratic& platform, const std::vector<Budget>& budgets) {
   const quadratic::Machine& m = platform.machine();
   const FrameLoad load = largest_load(platform);

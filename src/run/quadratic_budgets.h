@@ -9,6 +9,8 @@
 namespace rastertlm::run {
 
 std::vector<Budget> quadratic_budgets(const quadratic::Quadratic& platform);
+// What limits this frame: utilisation is the part of a frame that it takes.
+Bottleneck frame_bottleneck(const quadratic::Quadratic& platform, const quadratic::ShownFrame& frame);
 Answer quadratic_answer(const quadratic::Quadratic& platform, const std::vector<Budget>& budgets);
 // Sentences: words that are too narrow for the screen, triangles that are not as their method has them, screens that
 // show what is being drawn. `displayed`: how many of the frames are.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "platforms/quadratic/quadratic.h"
@@ -17,6 +18,7 @@
 #include "src/run/inputs.h"
 #include "src/run/quadratic_budgets.h"
 #include "src/run/quadratic_figures.h"
+#include "src/run/quadratic_timeline.h"
 #include "src/run/software_budgets.h"
 
 namespace rastertlm::run {
@@ -119,10 +121,9 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   const scene::Scene& scene = *inputs.content->scene;
   const auto start = std::chrono::steady_clock::now();
   std::chrono::steady_clock::duration outside{};  // spent in references and sinks, which is not the simulation's
-  if (options.timeline)
-    throw InputError(Diagnostic{"--timeline-frames", 0, "", "the quadratic machine has no timeline yet"});
   Result result;
   Exact exact(machine, scene, options.exact);
+  std::optional<QuadraticTimeline> timeline;
   const auto show = [&](const quadratic::ShownFrame& shown, const frame::Frame& pixels) {
     if (result.frames.size() >= options.frames) return;
     const auto entered = std::chrono::steady_clock::now();
@@ -136,6 +137,7 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   const std::uint64_t frames = std::max(options.frames, kLeastFrames);
   try {
     platform = std::make_unique<quadratic::Quadratic>(machine, scene, quadratic::Options{frames}, show);
+    if (options.timeline) timeline.emplace(*options.timeline, options.frames, *platform);
     platform->run();
   } catch (const InputError& error) {
     throw inputs.content->located(error);
@@ -159,6 +161,7 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   result.logic = logic_figures(*platform);
   result.modelled = modelled_figures(*platform, scene);
   result.warnings = quadratic_warnings(*platform, options.frames);
+  if (timeline) result.timeline = std::make_shared<const Timeline>(timeline->close());
   if (options.host_figures)
     result.host =
         host_figures(std::chrono::steady_clock::now() - start - outside, frames * platform->timing().frame.count());

@@ -48,10 +48,14 @@ void add_watched(Timeline& timeline, std::size_t track, const std::vector<Watche
       event.value = static_cast<double>(span.bytes);
     }
     TimelineEvent* last = timeline.events.size() > first ? &timeline.events.back() : nullptr;
-    if (last != nullptr && last->end_ps == event.begin_ps && last->name == event.name && span.bytes == 0)
-      last->end_ps = event.end_ps;
-    else
+    const bool goes_on = last != nullptr && last->end_ps == event.begin_ps && last->name == event.name;
+    const bool overlaps = last != nullptr && last->end_ps > event.begin_ps;
+    if ((goes_on && span.bytes == 0) || overlaps) {
+      last->end_ps = std::max(last->end_ps, event.end_ps);
+      last->value += event.value;
+    } else {
       timeline.events.push_back(std::move(event));
+    }
   }
 }
 

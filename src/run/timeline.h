@@ -1,5 +1,5 @@
 // What units and links did, and when: of chosen displayed frames and scan lines. Times are picoseconds since the first
-// displayed frame's retrace began.
+// displayed frame's retrace began, or where frames are computed for a store, since the first one's set-up began.
 #pragma once
 
 #include <cstdint>
@@ -66,7 +66,7 @@ struct TimeWindow {
 };
 
 // Adds what was told in the order of time to a track: what lies in the window, and of what goes beyond it the part
-// inside. What follows itself, without bytes, becomes one.
+// inside. What follows itself, without bytes, becomes one, and so do what overlaps: several units share it.
 void add_watched(Timeline& timeline, std::size_t track, const std::vector<WatchedSpan>& told, const TimeWindow& window);
 
 const char* to_string(stream::Activity activity);

@@ -41,6 +41,21 @@ TEST_F(TimelineTest, OfInterlacedVideoWithTablesThatChange) {
   expect_good_timeline();
 }
 
+TEST_F(TimelineTest, OfTheQuadraticMachineIsItsReport) {
+  render("quadratic.toml", "sphere_168.toml", {"--frames", "3", "--timeline-frames", "0..2"});
+  expect_good_timeline();
+}
+
+TEST_F(TimelineTest, OfASharedPortAndOfDealtUnits) {
+  render("quadratic.toml", "sphere_168.toml",
+         {"--frames", "3", "--timeline-frames", "0..2", "--set", "frame_store.scan_out=shared"});
+  expect_good_timeline();
+  render("quadratic.toml", "sphere_168.toml",
+         {"--frames", "3", "--timeline-frames", "0..2", "--set", "span_unit.units=4", "--set",
+          "span_unit.share=triangles"});
+  expect_good_timeline();
+}
+
 TEST_F(TimelineTest, OfSomeLines) {
   render("imogene.toml", "teapot.toml", {"--frames", "2", "--timeline-frames", "1", "--timeline-lines", "10..12"});
   expect_good_timeline({"10", "12"});
