@@ -31,6 +31,36 @@ TEST_F(StoreTest, HasWhatRenderReports) {
   EXPECT_FALSE(table.rows[0].thumbnail.empty());
 }
 
+// The first point of a set renders the exact pictures, and the others take them: each as if it were alone, whatever
+// poses it shows. Hosts that are slow show old ones; fields of interlaced video have one each.
+TEST_F(StoreTest, SharedExactPicturesAreThoseOfEachPoint) {
+  write("scene.toml",
+        one_triangle() + "[[object.animation]]\ntype = \"spin\"\naxis = [0.0, 0.0, 1.0]\ndeg_per_frame = 9.0\n");
+  write("sweep.toml", sweep("[[vary]]\npath = \"host.sustained_mflops\"\nvalues = [1.5, 0.03]\n"
+                            "[[vary]]\npath = \"shading.arithmetic\"\nvalues = [\"centred\", \"literal\"]\n",
+                            "frames = 3\nset.video.interlaced = true\n"));
+  ASSERT_EQ(run(run_sweep({"--jobs", "2"})).exit_code, 0);
+  explore::Store store(in_work("s.sqlite"), explore::Store::Opening::look);
+  const explore::SweepTable table = store.table();
+  ASSERT_EQ(table.rows.size(), 4U);
+  std::set<std::string> reports;
+  for (const explore::Row& row : table.rows) {
+    std::vector<std::string> arguments{"render", "machine.toml", "scene.toml",           "--frames", "3", "--out",
+                                       "o",      "--set",        "video.interlaced=true"};
+    for (std::size_t axis = 0; axis < table.axes.size(); ++axis) {
+      arguments.emplace_back("--set");
+      arguments.push_back(table.axes[axis].path + '=' + table.axes[axis].values[row.values[axis]]);
+    }
+    const Outcome alone = run(arguments);
+    ASSERT_EQ(alone.exit_code, 0) << alone.err;
+    const std::int64_t result =
+        store.database().integer("SELECT result FROM point WHERE number = " + std::to_string(row.number));
+    EXPECT_TRUE(store.report(result) == file_text(in_work("o/report.json"))) << row.number;
+    reports.insert(store.report(result));
+  }
+  EXPECT_EQ(reports.size(), 4U);
+}
+
 TEST_F(StoreTest, ResumedRunsNothingTwiceAndAChangedSweepOnlyWhatIsNew) {
   write("sweep.toml", grid(3));
   ASSERT_EQ(run(run_sweep()).exit_code, 0);
