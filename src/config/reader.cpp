@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -29,6 +30,15 @@ struct Site {
   std::string file;
   int line = 0;
 };
+
+// A sweep reads the same presets for every machine.
+const Document& parsed(const std::string& text, const std::string& file) {
+  static std::map<std::string, Document> documents;
+  const std::string key = fmt::format("{}\n{}", file, text);
+  const auto known = documents.find(key);
+  return known != documents.end() ? known->second
+                                  : documents.emplace(key, Document::from_text(text, file)).first->second;
+}
 
 class Reading {
  public:
@@ -180,7 +190,7 @@ class Reading {
     const std::string file = fmt::format("preset {}/{}", table, name);
     const std::size_t order = document_.entries().size() + overrides_.size();
     try {
-      const Document preset = Document::from_text(*text, file);
+      const Document& preset = parsed(*text, file);
       for (const Entry& entry : preset.entries())
         if (entry.kind != EntryKind::table)
           apply_preset_entry(table + '.' + entry.path, entry, {order, file, entry.line}, name);

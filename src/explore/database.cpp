@@ -59,6 +59,13 @@ std::string Database::text(const std::string& sql) {
   return statement.step() ? statement.text(0) : std::string();
 }
 
+Statement& Database::kept(const std::string& sql) {
+  auto known = kept_.find(sql);
+  if (known == kept_.end()) known = kept_.emplace(sql, Statement(*this, sql)).first;
+  known->second.reset();
+  return known->second;
+}
+
 std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_.get()); }
 
 Statement::Statement(Database& database, const std::string& sql) : database_(&database) {
@@ -110,6 +117,8 @@ void Statement::run() {
   while (step()) {
   }
 }
+
+void Statement::reset() { sqlite3_reset(statement_.get()); }
 
 std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
 double Statement::real(int column) const { return sqlite3_column_double(statement_.get(), column); }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -31,6 +32,8 @@ class Statement {
   bool step();
   // Runs it to its end.
   void run();
+  // As if it had not been stepped.
+  void reset();
   std::int64_t integer(int column) const;
   double real(int column) const;
   std::string text(int column) const;  // text or bytes
@@ -55,6 +58,8 @@ class Database {
   std::int64_t integer(const std::string& sql);
   std::string text(const std::string& sql);
   std::int64_t last_row() const;
+  // A statement that is kept for the next time, not stepped. One that may still be at work must not be asked for.
+  Statement& kept(const std::string& sql);
   const std::string& file() const { return file_; }
   sqlite3* handle() const { return handle_.get(); }
 
@@ -68,6 +73,7 @@ class Database {
   };
   std::string file_;
   std::unique_ptr<sqlite3, Close> handle_;
+  std::unordered_map<std::string, Statement> kept_;
 };
 
 // All or nothing: rolled back unless it is committed.

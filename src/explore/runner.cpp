@@ -138,7 +138,7 @@ class Runner {
     return false;
   }
 
-  void start(std::deque<Job>::iterator job, Shared* shared, bool renders) {
+  void start(const std::deque<Job>::iterator& job, Shared* shared, bool renders) {
     Running one{std::move(*job), nullptr, renders ? shared : nullptr};
     ahead_.erase(job);
     const std::string& scene = one.job.point.scene_digest;

@@ -163,9 +163,11 @@ void Store::add_sweep(const Sweep& sweep, const Design& design, const std::strin
 }
 
 std::optional<KnownResult> Store::find(const std::string& key) {
-  Statement statement(database_, "SELECT id, state FROM result WHERE key = ?");
+  Statement& statement = database_.kept("SELECT id, state FROM result WHERE key = ?");
   if (!statement.bind(1, key).step()) return std::nullopt;
-  return KnownResult{statement.integer(0), state_of(statement.text(1))};
+  const KnownResult known{statement.integer(0), state_of(statement.text(1))};
+  statement.reset();
+  return known;
 }
 
 std::int64_t Store::record(const PointResult& result, std::int64_t sweep, const std::vector<std::uint64_t>& numbers) {
@@ -177,9 +179,9 @@ std::int64_t Store::record(const PointResult& result, std::int64_t sweep, const 
     Statement(database_, "DELETE FROM figure WHERE result = ?").bind(1, before->id).run();
     Statement(database_, "DELETE FROM result WHERE id = ?").bind(1, before->id).run();
   }
-  Statement add(database_,
-                "INSERT INTO result(id, key, state, error, config_digest, scene_digest, seconds, recorded, session, "
-                "report, picture) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement& add = database_.kept(
+      "INSERT INTO result(id, key, state, error, config_digest, scene_digest, seconds, recorded, session, "
+      "report, picture) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   if (before)
     add.bind(1, before->id);
   else
@@ -190,8 +192,8 @@ std::int64_t Store::record(const PointResult& result, std::int64_t sweep, const 
   add.bind(11, result.thumbnail.empty() ? std::string() : sha256_hex(result.thumbnail)).run();
   const std::int64_t id = database_.last_row();
   add_parts(result, id);
-  Statement(database_, "UPDATE session SET started = ? WHERE id = ?").bind(1, started_).bind(2, session_).run();
-  Statement point(database_, "UPDATE point SET result = ? WHERE sweep = ? AND number = ?");
+  database_.kept("UPDATE session SET started = ? WHERE id = ?").bind(1, started_).bind(2, session_).run();
+  Statement& point = database_.kept("UPDATE point SET result = ? WHERE sweep = ? AND number = ?");
   for (const std::uint64_t number : numbers)
     point.bind(1, id).bind(2, sweep).bind(3, static_cast<std::int64_t>(number)).run();
   transaction.commit();
@@ -199,13 +201,13 @@ std::int64_t Store::record(const PointResult& result, std::int64_t sweep, const 
 }
 
 void Store::add_parts(const PointResult& result, std::int64_t id) {
-  Statement figure(database_, "INSERT INTO figure VALUES (?, ?, ?)");
+  Statement& figure = database_.kept("INSERT INTO figure VALUES (?, ?, ?)");
   for (const auto& [path, value] : result.figures) figure.bind(1, id).bind(2, path).bind(3, value).run();
-  Statement configuration(database_, "INSERT OR IGNORE INTO configuration VALUES (?, ?)");
+  Statement& configuration = database_.kept("INSERT OR IGNORE INTO configuration VALUES (?, ?)");
   if (!result.machine_toml.empty()) configuration.bind(1, result.config_digest).bind_blob(2, result.machine_toml).run();
   if (!result.scene_toml.empty()) configuration.bind(1, result.scene_digest).bind_blob(2, result.scene_toml).run();
   if (result.thumbnail.empty()) return;
-  Statement picture(database_, "INSERT OR IGNORE INTO picture VALUES (?, ?)");
+  Statement& picture = database_.kept("INSERT OR IGNORE INTO picture VALUES (?, ?)");
   picture.bind(1, sha256_hex(result.thumbnail)).bind_blob(2, result.thumbnail).run();
 }
 
@@ -242,8 +244,10 @@ void Store::begin_session(std::int64_t sweep) {
 }
 
 bool Store::has_scene(const std::string& digest) {
-  Statement statement(database_, "SELECT 1 FROM configuration WHERE digest = ?");
-  return statement.bind(1, digest).step();
+  Statement& statement = database_.kept("SELECT 1 FROM configuration WHERE digest = ?");
+  const bool there = statement.bind(1, digest).step();
+  statement.reset();
+  return there;
 }
 
 std::string Store::report(std::int64_t result) {
