@@ -69,12 +69,19 @@ SetUpWork::SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& 
                                  format.viewport)),
       near_word_(static_cast<double>(set_up::near_depth(depth_format(format)))),
       depth_range_(static_cast<double>(set_up::far_depth(depth_format(format))) - near_word_),
-      lighting_(parameters, std::move(surfaces), rules),
+      lighting_(parameters, surfaces, rules),
       colourer_(parameters, lighting_),
       load_costs_(set_up::span_load_costs(linear_)),
       object_to_clip_(scene.objects.size()),
       kernels_(set_up::triangle_kernels(vector_variant())) {
   count_paths();
+  if (parameters.shades_some_pixels()) {
+    depth_costs_ = set_up::depth_load_costs();
+    const bool chosen = parameters.method == ShadingMethod::gouraud_phong;
+    shader_ = std::make_unique<pixel_unit::PixelShader>(
+        pixel_unit::ShaderSettings{chosen ? ShadingMethod::phong : parameters.method, parameters.attributes, true},
+        std::move(surfaces), rules);
+  }
   if (parameters.classifies())
     for (const auto& object : scene.objects) classifiers_.emplace_back(*object.mesh);
 }
@@ -102,6 +109,8 @@ void SetUpWork::begin_frame(const geometry::Pose& pose, bool viewer_at_eye) {
   std::vector<geometry::LightSource> lights;
   for (const geometry::Light& light : pose.lights)
     lights.push_back({light.kind == geometry::LightKind::point, light.vector, light.intensity, light.intensity});
+  shadings_.clear();
+  if (shader_) shader_->set_lights(lights, viewer_at_eye);
   lighting_.set_lights(std::move(lights), viewer_at_eye);
   clip_to_eye_ = glm::inverse(pose.eye_to_clip);
   waiting_operations_ = {};
@@ -206,10 +215,11 @@ bool SetUpWork::next() {
     if (load_count_ == room_.size()) room_.emplace_back();
     span_unit::TriangleLoad& load = room_[load_count_];
     set_up::put_span_load(triangle, format_.span, load);
-    triangle_operations_ += set_up::cost_of(load, load_costs_);
+    triangle_operations_ += set_up::cost_of(load, load.shading != nullptr ? depth_costs_ : load_costs_);
     counts_.words += words_of(load);
     if (load.count == 0) continue;
     ++load_count_;
+    counts_.shaded += load.shading != nullptr ? 1 : 0;
     counts_.wraps += load.wraps ? 1 : 0;
   }
   counts_.loads += load_count_;
@@ -259,7 +269,29 @@ void SetUpWork::colour(const set_up::ScreenTriangle<double>& piece, std::size_t 
     }
     request.depth[i] = std::clamp(corner.z, 0.0, 1.0) * depth_range_ + near_word_;
   }
+  const bool chosen = parameters_.method != ShadingMethod::gouraud_phong || request.highlighted;
+  request.by_pixels = shader_ != nullptr && chosen;
+  const std::size_t before = coloured_.size();
   colourer_.colour(request, coloured_);
+  if (request.by_pixels && coloured_.size() > before) give_shading();
+}
+
+// To the triangle that came last: what the pixel unit needs to know of it.
+void SetUpWork::give_shading() {
+  pixel_unit::PixelTriangle& shading = shadings_.emplace_back();
+  shading.corners = request_.corners;
+  shading.fraction_bits = parameters_.corner_bits();
+  shading.material = request_.material;
+  const auto& [a, b, c] = request_.corners;
+  if (!geometry::faces_viewer(geometry::doubled_area(a.at, b.at, c.at)))
+    for (set_up::LitPoint& corner : shading.corners) corner.normal = -corner.normal;
+  coloured_.back().shading = &shading;
+  triangle_operations_ += shader_->set_up_cost();
+}
+
+std::uint64_t SetUpWork::words_of(const span_unit::TriangleLoad& load) const {
+  if (load.shading == nullptr) return set_up::load_words(load, linear_);
+  return set_up::depth_load_words(load) + shader_->set_up_words();
 }
 
 }  // namespace rastertlm::host

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <glm/mat4x4.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "modules/host/path_counts.h"
 #include "modules/host/resident_scene.h"
+#include "modules/pixel_unit/pixel_shader.h"
 #include "modules/set_up/colour_steps.h"
 #include "modules/set_up/highlight_classifier.h"
 #include "modules/set_up/parameters.h"
@@ -35,7 +38,8 @@ struct SetUpCounts {
   std::uint64_t pieces = 0;     // more than one a triangle, from clipping
   std::uint64_t loads = 0;
   std::uint64_t words = 0;
-  std::uint64_t wraps = 0;  // loads whose slopes a prestep's products cannot take
+  std::uint64_t shaded = 0;  // of the loads: by a pixel unit
+  std::uint64_t wraps = 0;   // loads whose slopes a prestep's products cannot take
   set_up::ColourCounts colour;
   set_up::ClassifiedCounts classified;    // methods of 003
   set_up::SubdivisionCounts subdivision;  // likewise
@@ -57,7 +61,10 @@ class SetUpWork {
   const std::vector<set_up::ColourTriangle>& coloured() const { return coloured_; }
   std::span<const span_unit::TriangleLoad> loads() const { return {room_.data(), load_count_}; }
   const geometry::OperationCounts& operations() const { return triangle_operations_; }
-  std::uint64_t words_of(const span_unit::TriangleLoad& load) const { return set_up::load_words(load, linear_); }
+  // A pixel unit's are counted in.
+  std::uint64_t words_of(const span_unit::TriangleLoad& load) const;
+  // Of a machine whose method shades pixels; else null. It knows the frame's lights from begin_frame() on.
+  pixel_unit::PixelShader* shader() const { return shader_.get(); }
 
   // Of the frame so far.
   SetUpCounts counts() const;
@@ -74,6 +81,7 @@ class SetUpWork {
   glm::dvec3 eye_position(const geometry::ScreenVertex<double>& corner) const;
   void count_paths();
   void classify();
+  void give_shading();
 
   const ResidentScene& scene_;
   set_up::SetUpParameters parameters_;
@@ -102,6 +110,9 @@ class SetUpWork {
   set_up::LightingCounts lighting_start_;
   std::vector<set_up::HighlightClassifier> classifiers_;  // an object each, for methods that need them
   std::vector<const std::vector<set_up::Highlighted>*> highlighted_;
+  std::unique_ptr<pixel_unit::PixelShader> shader_;
+  std::deque<pixel_unit::PixelTriangle> shadings_;  // of the frame
+  set_up::SpanLoadCosts depth_costs_;
   // Eight triangles of an object at a time: those that lie on the screen are not clipped one by one.
   const set_up::TriangleKernels& kernels_;
   set_up::ObjectCorners block_;

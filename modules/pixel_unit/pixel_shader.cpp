@@ -48,6 +48,9 @@ class PixelShader::Engine {
   virtual ~Engine() = default;
   virtual void set_lights(std::vector<geometry::LightSource> lights, bool viewer_at_eye) = 0;
   virtual bool needs_positions() const = 0;
+  // Dot products of a pixel, and other numbers of a triangle's lights, where they are not the frame's.
+  virtual std::size_t vectors() const = 0;
+  virtual std::size_t constants() const = 0;
   virtual void set_up(const PixelTriangle& triangle) = 0;
   virtual void shade(const span_unit::Span& span, std::vector<glm::dvec3>& levels) = 0;
   ShaderCounters counters;
@@ -72,6 +75,8 @@ class PixelShader::EngineOf : public PixelShader::Engine {
     note_vectors();
   }
   bool needs_positions() const override { return needs_.positions; }
+  std::size_t vectors() const override { return vectors_.size(); }
+  std::size_t constants() const override { return needs_.positions ? seen_.light_viewer.size() : 0; }
 
   void set_up(const PixelTriangle& triangle) override {
     const Charge charge(counters.set_up, counters.set_up_angles);
@@ -175,7 +180,8 @@ class PixelShader::EngineOf : public PixelShader::Engine {
 };
 
 PixelShader::PixelShader(const ShaderSettings& settings, std::vector<geometry::Reflectance> surfaces,
-                         const geometry::LightingRules& rules) {
+                         const geometry::LightingRules& rules)
+    : settings_(settings), surfaces_(surfaces), rules_(rules) {
   if (!shades_pixels(settings.method))
     throw std::invalid_argument(std::string(traits_of(settings.method).name) + " is no method of a pixel unit");
   if (settings.count)
@@ -188,9 +194,52 @@ PixelShader::~PixelShader() = default;
 PixelShader::PixelShader(PixelShader&&) noexcept = default;
 PixelShader& PixelShader::operator=(PixelShader&&) noexcept = default;
 
-void PixelShader::set_lights(std::vector<geometry::LightSource> lights, bool viewer_at_eye) {
-  engine_->set_lights(std::move(lights), viewer_at_eye);
+namespace {
+
+// Like any other: no edge is level, nothing vanishes.
+PixelTriangle usual_triangle() {
+  PixelTriangle triangle;
+  triangle.fraction_bits = 4;
+  const geometry::SnappedPoint at[] = {{0, 0}, {16, 160}, {160, 80}};
+  const glm::dvec3 normals[] = {{0.1, 0.0, 1.0}, {0.0, 0.1, 1.0}, {-0.1, -0.1, 1.0}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    triangle.corners[i].at = at[i];
+    triangle.corners[i].normal = normals[i];
+    triangle.corners[i].position = {0.1 * static_cast<double>(i), 0.0, -3.0};
+  }
+  return triangle;
 }
+
+}  // namespace
+
+void PixelShader::set_lights(std::vector<geometry::LightSource> lights, bool viewer_at_eye) {
+  EngineOf<geometry::Counted<double>> usual(settings_, surfaces_, rules_);
+  usual.set_lights(lights, viewer_at_eye);
+  usual.set_up(usual_triangle());
+  set_up_cost_ = usual.counters.set_up;
+  engine_->set_lights(std::move(lights), viewer_at_eye);
+  set_up_words_ = count_words();
+}
+
+std::uint64_t PixelShader::count_words() const {
+  constexpr std::uint64_t kPlane = 3, kForm = 6, kEdge = 11;  // upper end, slope, 1 / height, two normals, angle
+  constexpr std::uint64_t kPlaceAndMaterial = 3;
+  const std::uint64_t vectors = engine_->vectors();
+  const bool seen_from_centre = engine_->needs_positions();
+  switch (settings_.method) {
+    case ShadingMethod::phong: {
+      const std::uint64_t inverse_w = settings_.attributes == set_up::Attributes::perspective ? kPlane : 0;
+      return kPlaceAndMaterial + 3 * kPlane + (seen_from_centre ? 3 * kPlane + inverse_w : 0);
+    }
+    case ShadingMethod::duff:
+      return kPlaceAndMaterial + kForm + vectors * kPlane + engine_->constants();
+    case ShadingMethod::taylor:
+      return kPlaceAndMaterial + vectors * kForm + engine_->constants();
+    default:
+      return kPlaceAndMaterial + 3 * kEdge + (seen_from_centre ? 3 * vectors : 0) + engine_->constants();
+  }
+}
+
 bool PixelShader::needs_positions() const { return engine_->needs_positions(); }
 void PixelShader::set_up(const PixelTriangle& triangle) { engine_->set_up(triangle); }
 void PixelShader::shade(const span_unit::Span& span, std::vector<glm::dvec3>& levels) { engine_->shade(span, levels); }

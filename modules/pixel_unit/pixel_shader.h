@@ -49,6 +49,11 @@ class PixelShader {
   // Corners need positions: a light is at a point, or the viewer is at the eye.
   bool needs_positions() const;
 
+  // What a triangle's set-up costs the host with these lights, and how many words it writes for it: planes, forms or
+  // edges, where the triangle is, its material.
+  const geometry::OperationCounts& set_up_cost() const { return set_up_cost_; }
+  std::uint64_t set_up_words() const { return set_up_words_; }
+
   // The next triangle. Duff's, Taylor's and the angular method have light and viewer as its centre sees them.
   void set_up(const PixelTriangle& triangle);
   // Levels of a span's pixels before they are rounded and clamped.
@@ -62,7 +67,14 @@ class PixelShader {
   class Engine;
   template <class T>
   class EngineOf;
+  std::uint64_t count_words() const;
+
+  ShaderSettings settings_;
+  std::vector<geometry::Reflectance> surfaces_;
+  geometry::LightingRules rules_;
   std::unique_ptr<Engine> engine_;
+  geometry::OperationCounts set_up_cost_;
+  std::uint64_t set_up_words_ = 0;
   std::vector<glm::dvec3> light_;  // of a span
 };
 

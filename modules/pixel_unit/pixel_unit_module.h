@@ -28,6 +28,8 @@ class PixelUnitModule : public sc_core::sc_module {
   // To the end of its last pixel's interval. Busy: loads, lines and pixels; starved: nothing to shade was there;
   // blocked: the memory took longer.
   stream::Occupancy occupancy() const;
+  // When its last level was in the memory.
+  std::uint64_t drained_ps() const { return drained_ps_; }
   std::uint64_t shaded() const { return shaded_; }  // pixels
   std::uint64_t passed() const { return passed_; }
 

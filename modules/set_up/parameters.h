@@ -54,6 +54,8 @@ struct SetUpParameters {
   }
   // Triangles are told apart before any is drawn.
   bool classifies() const { return subdivides() || method == ShadingMethod::gouraud_phong; }
+  // Some triangles' pixels, or all, are shaded one by one: the machine has a pixel unit.
+  bool shades_some_pixels() const { return method == ShadingMethod::gouraud_phong || shades_pixels(method); }
   // Triangles are cut into parts whose corners are on a finer grid.
   bool makes_parts() const { return subdivides() || method == ShadingMethod::quadratic_adaptive; }
 

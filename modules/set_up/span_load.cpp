@@ -149,6 +149,16 @@ void load_edge(const Edge& edge, std::int64_t line, int fraction_bits, HalfTrian
   geometry::charge_integer<T>(8, 4);
 }
 
+template <class T>
+void load_depth(const Start<T>& at, const ColourTriangle& triangle, const Slopes<T>& depth, const SpanFormat& format,
+                StartEdgeRegisters& registers) {
+  const auto word = [&](const T& value) { return to_word(geometry::plain(value), format.depth_fraction_bits); };
+  put_words({word(depth.x * at.x + depth.y * at.y + T(triangle.depth[0])), word(depth.x * at.slope + depth.y),
+             word(depth.x), 0, 0, 0},
+            span_unit::kDepthSet, registers);
+  if constexpr (!std::is_arithmetic_v<T>) geometry::operation_counts.convert += 3;
+}
+
 // One set after the other.
 template <class T>
 void load_registers(const Start<T>& at, const ColourTriangle& triangle, const Slopes<T>& depth,
@@ -157,11 +167,7 @@ void load_registers(const Start<T>& at, const ColourTriangle& triangle, const Sl
     put_words(linear ? linear_words<T>(triangle.colour[c], at, format.fraction_bits)
                      : colour_words<T>(triangle.colour[c], at, format.fraction_bits),
               c, registers);
-  const auto word = [&](const T& value) { return to_word(geometry::plain(value), format.depth_fraction_bits); };
-  put_words({word(depth.x * at.x + depth.y * at.y + T(triangle.depth[0])), word(depth.x * at.slope + depth.y),
-             word(depth.x), 0, 0, 0},
-            span_unit::kDepthSet, registers);
-  if constexpr (!std::is_arithmetic_v<T>) geometry::operation_counts.convert += 3;
+  load_depth<T>(at, triangle, depth, format, registers);
 }
 
 // All sets at once: the same words.
@@ -278,7 +284,16 @@ std::uint64_t load_words(const span_unit::TriangleLoad& load, bool linear) {
   return words;
 }
 
-SpanLoadCosts span_load_costs(bool linear) {
+std::uint64_t depth_load_words(const span_unit::TriangleLoad& load) {
+  if (load.count == 0) return 0;
+  const bool starts_again = load.count == 2 && !load.second_goes_on;
+  return load_words(load, true) - span_unit::kChannels * (starts_again ? 3 + 2 : 3);
+}
+
+namespace {
+
+template <class Registers>
+SpanLoadCosts costs_with(const Registers& load_set) {
   ColourTriangle triangle;
   triangle.corners = {SnappedPoint{0, 0}, SnappedPoint{0, 160}, SnappedPoint{160, 0}};
   triangle.fraction_bits = 4;
@@ -292,14 +307,28 @@ SpanLoadCosts span_load_costs(bool linear) {
   before = geometry::operation_counts;
   HalfTriangle half;
   load_edge<Number>(edge, 0, triangle.fraction_bits, half);
-  load_registers<Number>(start_of<Number>(edge, half.start, 0, triangle, format), triangle, depth, format, linear,
-                         half.registers);
+  load_set(start_of<Number>(edge, half.start, 0, triangle, format), triangle, depth, format, half.registers);
   geometry::charge_integer<Number>(8, 4);  // the end edge
   costs.start = geometry::operation_counts - before;
   before = geometry::operation_counts;
   geometry::charge_integer<Number>(8, 4);
   costs.goes_on = geometry::operation_counts - before;
   return costs;
+}
+
+}  // namespace
+
+SpanLoadCosts span_load_costs(bool linear) {
+  return costs_with([linear](const Start<Number>& at, const ColourTriangle& triangle, const Slopes<Number>& depth,
+                             const SpanFormat& format, StartEdgeRegisters& registers) {
+    load_registers<Number>(at, triangle, depth, format, linear, registers);
+  });
+}
+
+SpanLoadCosts depth_load_costs() {
+  return costs_with([](const Start<Number>& at, const ColourTriangle& triangle, const Slopes<Number>& depth,
+                       const SpanFormat& format,
+                       StartEdgeRegisters& registers) { load_depth<Number>(at, triangle, depth, format, registers); });
 }
 
 geometry::OperationCounts cost_of(const span_unit::TriangleLoad& load, const SpanLoadCosts& costs) {

@@ -58,6 +58,8 @@ void put_span_load(const ColourTriangle& triangle, const SpanFormat& format, spa
 
 // Words that the host writes for it. `linear`: the machine's second differences are wired to zero (Gouraud).
 std::uint64_t load_words(const span_unit::TriangleLoad& load, bool linear);
+// The same without colours.
+std::uint64_t depth_load_words(const span_unit::TriangleLoad& load);
 
 // What it costs the host.
 struct SpanLoadCosts {
@@ -66,6 +68,8 @@ struct SpanLoadCosts {
   geometry::OperationCounts goes_on;   // one that goes on with them
 };
 SpanLoadCosts span_load_costs(bool linear);
+// The same without colours.
+SpanLoadCosts depth_load_costs();
 geometry::OperationCounts cost_of(const span_unit::TriangleLoad& load, const SpanLoadCosts& costs);
 
 }  // namespace rastertlm::set_up

@@ -130,6 +130,12 @@ void TriangleColourer::colour(const ColourRequest& request, std::vector<ColourTr
     ++counts_.back_faces;
     return;
   }
+  if (request.by_pixels) {
+    begin_triangle(request, request.depth, out);
+    out.back().corners = at;
+    ++counts_.drawn;
+    return;
+  }
   light_knots(request, turned, knots_);
   const bool cut = parameters_.subdivides() ? request.highlighted : parameters_.method == ShadingMethod::pseudo_phong;
   if (cut) return draw_parts(request, knots_, out);

@@ -33,6 +33,7 @@ struct ColourRequest {
   std::uint32_t object = 0;         // from 1
   std::uint32_t material = 0;
   bool two_sided = false;
+  bool by_pixels = false;    // a pixel unit lights it: it gets no colours
   bool highlighted = false;  // may hold a highlight, or lies beside what may (003)
 };
 
