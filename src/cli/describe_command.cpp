@@ -56,6 +56,8 @@ std::string files_text(const std::string& folder, const std::string& what) {
 std::string machines_text() { return files_text("configs/machines", "machine"); }
 std::string scenes_text() { return files_text("configs/scenes", "scene"); }
 
+std::string sweeps_text() { return files_text("configs/sweeps", "sweep"); }
+
 std::string presets_text() {
   const config::Presets& presets = config::Presets::compiled_in();
   TextTable rows({{"preset"}, {"what it is"}});
@@ -89,9 +91,10 @@ struct Topic {
   std::string (*text)();
 };
 
-constexpr std::array<Topic, 6> kTopics{{
+constexpr std::array<Topic, 7> kTopics{{
     {"machines", "machine files in configs/machines", machines_text},
     {"scenes", "scene files in configs/scenes", scenes_text},
+    {"sweeps", "sweep files in configs/sweeps", sweeps_text},
     {"presets", "named sets of values, compiled into the program", presets_text},
     {"parameters", "every key of machine and scene files", parameters_text},
     {"methods", "shading methods, and the platform that offers each", methods_text},
@@ -101,7 +104,7 @@ constexpr std::array<Topic, 6> kTopics{{
 }  // namespace
 
 void DescribeCommand::declare(CLI::App& app) {
-  app.add_option("TOPIC", topic_, "machines, scenes, presets, parameters, methods or statistics");
+  app.add_option("TOPIC", topic_, "machines, scenes, sweeps, presets, parameters, methods or statistics");
 }
 
 ExitCode DescribeCommand::run() {

@@ -8,7 +8,9 @@ namespace rastertlm::cli {
 class DescribeCommand : public Command {
  public:
   std::string name() const override { return "describe"; }
-  std::string summary() const override { return "List machines, scenes, presets, parameters, methods or statistics"; }
+  std::string summary() const override {
+    return "List machines, scenes, sweeps, presets, parameters, methods or statistics";
+  }
   void declare(CLI::App& app) override;
   ExitCode run() override;
 

@@ -44,9 +44,9 @@ struct Inputs {
   std::unique_ptr<Content> content;
 };
 
-// Reads both files; `overrides` are the arguments of --set. Throws InputError with everything that is wrong in both.
+// Reads both files; `arguments` are those of --set. Throws InputError with everything that is wrong in both.
 Inputs read_inputs(const std::string& machine_file, const std::string& scene_file,
-                   const std::vector<std::string>& overrides);
+                   const std::vector<std::string>& arguments);
 
 // What was read, every key with its value and where that came from, as files that read back as the same.
 std::string resolved_machine_toml(const Inputs& inputs);

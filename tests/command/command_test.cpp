@@ -199,7 +199,8 @@ TEST_F(CommandTest, DescribesWhatThereIs) {
       {"statistics", {"links[].utilisation", "answer.update_rate_hz", "images[].error.psnr_db", "host.wall_seconds"}},
       {"presets", {"host.preset = \"t800_20\"", "T800-20"}},
       {"machines", {"no machine files in configs/machines"}},
-      {"scenes", {"no scene files in configs/scenes"}}};
+      {"scenes", {"no scene files in configs/scenes"}},
+      {"sweeps", {"no sweep files in configs/sweeps"}}};
   const Outcome overview = run({"describe"});
   EXPECT_EQ(overview.exit_code, 0);
   for (const auto& [topic, texts] : topics) {
@@ -214,6 +215,7 @@ TEST_F(CommandTest, DescribesTheShippedFiles) {
   std::filesystem::create_directory_symlink(std::string(RASTERTLM_SOURCE_DIR) + "/configs", in_work("configs"));
   EXPECT_THAT(run({"describe", "machines"}).out, HasSubstr("configs/machines/imogene.toml"));
   EXPECT_THAT(run({"describe", "scenes"}).out, HasSubstr("configs/scenes/teapot.toml"));
+  EXPECT_THAT(run({"describe", "sweeps"}).out, HasSubstr("configs/sweeps/transputers.toml"));
 }
 
 TEST_F(CommandTest, RendersTheShippedTeapotByDefault) {

@@ -107,8 +107,9 @@ TEST_F(StoreTest, AFailingPointIsKeptAndStopsNothing) {
 // Killed at random moments, by a signal that nobody can answer.
 TEST_F(StoreTest, KilledAndResumedIsAsIfNeverKilled) {
   constexpr int kKills = 10;
+  constexpr int kPoints = 160;
   constexpr int kJobs = 2;
-  write("sweep.toml", grid(60));
+  write("sweep.toml", grid(kPoints / 2));
   ASSERT_EQ(run({"explore", "run", "sweep.toml", "--store", "whole.sqlite"}).exit_code, 0);
   std::mt19937 random(20);
   std::map<std::string, std::string> recorded;
@@ -122,30 +123,30 @@ TEST_F(StoreTest, KilledAndResumedIsAsIfNeverKilled) {
   };
   for (int kill = 0; kill < kKills; ++kill) {
     const pid_t child = start(run_sweep({"--resume", "--jobs", std::to_string(kJobs)}));
-    const std::size_t enough = recorded.size() + 1 + random() % 9;
+    const std::size_t enough = recorded.size() + 1 + random() % 5;
     ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(in_work("s.sqlite")) && rows().size() >= enough; }));
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % 20000));
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 5000));
     ::kill(child, SIGKILL);
     EXPECT_EQ(wait_for(child).signal, SIGKILL);
     const auto now = rows();
     for (const auto& [key, row] : recorded) EXPECT_EQ(now.at(key), row);  // what was recorded was not run again
     recorded = now;
   }
-  ASSERT_LT(recorded.size(), 120U);
+  ASSERT_LT(recorded.size(), static_cast<std::size_t>(kPoints));
   const Outcome last = run(run_sweep({"--resume"}));
   EXPECT_EQ(last.exit_code, 0) << last.err;
   EXPECT_TRUE(results() == results("whole.sqlite"));
   EXPECT_EQ(run({"explore", "show", "s.sqlite", "--csv"}).out, run({"explore", "show", "whole.sqlite", "--csv"}).out);
   explore::Database database(in_work("s.sqlite"), explore::Database::Access::existing);
-  EXPECT_EQ(database.integer("SELECT count(*) FROM result"), 120);
+  EXPECT_EQ(database.integer("SELECT count(*) FROM result"), kPoints);
   // Every simulation that was started is recorded, or was at work when its parent was killed.
-  EXPECT_LE(database.integer("SELECT sum(started) FROM session"), 120 + kKills * kJobs);
+  EXPECT_LE(database.integer("SELECT sum(started) FROM session"), kPoints + kKills * kJobs);
   EXPECT_EQ(database.text("PRAGMA integrity_check"), "ok");
 }
 
 TEST_F(StoreTest, AnInterruptLeavesWhatWasRecorded) {
   for (const int signal : {SIGINT, SIGTERM}) {
-    write("sweep.toml", grid(150));
+    write("sweep.toml", grid(2000));
     const pid_t child = start(run_sweep({"--resume"}));
     ASSERT_TRUE(wait_until([&] {
       return std::filesystem::exists(in_work("s.sqlite")) && std::filesystem::file_size(in_work("s.sqlite")) > 0 &&
@@ -162,7 +163,7 @@ TEST_F(StoreTest, AnInterruptLeavesWhatWasRecorded) {
 }
 
 TEST_F(StoreTest, TwoExplorersOnOneStore) {
-  write("sweep.toml", grid(150));
+  write("sweep.toml", grid(2000));
   const pid_t child = start(run_sweep());
   ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(in_work("s.sqlite")) && !results().empty(); }));
   write("other.toml", grid(2));

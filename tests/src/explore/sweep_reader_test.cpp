@@ -32,7 +32,7 @@ class SweepTest : public testing::Test {
   // A sweep of the default machine and scene. Line 1 is the schema, 2 the machine, 3 the scene; `text` begins on 4.
   std::string written(const std::string& text, const std::string& objective = kObjective) const {
     const std::string source = RASTERTLM_SOURCE_DIR;
-    const std::string file = folder_ + "/sweep.toml";
+    std::string file = folder_ + "/sweep.toml";
     std::ofstream(file) << fmt::format(
         "schema = 1\nmachine = \"{0}/configs/machines/imogene.toml\"\nscene = "
         "\"{0}/configs/scenes/teapot.toml\"\n{1}{2}",
