@@ -49,6 +49,13 @@ def leave_pictures(browser, checks, page, folder, name):
     os.makedirs(folder, exist_ok=True)
     browser.picture(os.path.join(folder, name + "_wide.png"))
     browser.paper(os.path.join(folder, name + ".pdf"))
+    browser.size(703, 1000)  # A4 less its margins
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    browser.evaluate("window.dispatchEvent(new Event('beforeprint'))")  # as printing does: charts take the paper's width
+    tallest = browser.evaluate("Math.max(...[...document.querySelectorAll('tr')].map((row) => row.offsetHeight))")
+    checks.true(tallest <= 120, f"a row of a table is {tallest} pixels tall on paper")
+    checks.true(browser.evaluate("document.documentElement.scrollWidth") <= 703, "the page is wider than paper")
+    browser.call("Emulation.setEmulatedMedia", media="")
     checks.equal(browser.complaints(), [], "the console")
     checks.equal([url for url in browser.requests() if not url.endswith(os.path.basename(page))], [], "requests")
     browser.size(375, 812, phone=True)

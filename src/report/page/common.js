@@ -74,7 +74,7 @@ function table(headers, rows, options) {
     const classes = [right[k] ? 'right' : '', told && content.class ? content.class : ''].filter(Boolean).join(' ');
     return element('td', {class: classes || null}, told ? content.text : content);
   };
-  return element('div', {class: 'scroll' + (options && options.tall ? ' tall' : '')},
+  return element('div', {class: ['scroll', options && options.tall ? 'tall' : '', (options && options.class) || ''].filter(Boolean).join(' ')},
       element('table', {},
           element('thead', {}, element('tr', {}, headers.map((header, k) =>
               element('th', {class: right[k] ? 'right' : null}, right[k] ? header.slice(1) : header)))),

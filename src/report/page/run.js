@@ -139,7 +139,7 @@ function budgetsSection() {
         budget.available > 0 ? percent(budget.used / budget.available) : '-',
         {text: budget.applies ? (budget.fits ? 'yes' : 'NO') : (budget.fits ? '(yes)' : '(NO)'), class: budget.applies && !budget.fits ? 'bad' : ''},
         {text: budget.source, class: 'wide'}, {text: budget.moved_by, class: 'wide code'},
-      ]), {tall: true}));
+      ]), {tall: true, class: 'moves'}));
 }
 
 function linksSection() {
