@@ -12,9 +12,15 @@ using parameter::Condition;
 
 namespace {
 
+const std::string kPicture = "the picture";
+const std::string kHost = "the picture, budgets host, units[] set-up processor";
 const Condition kQuadratics{"set_up.method", {"quadratic", "quadratic_adaptive"}};
 const Condition kAdaptive{"set_up.method", {"quadratic_adaptive"}};
 const Condition kPseudoPhong{"set_up.method", {"pseudo_phong"}};
+const Condition kClassified{"set_up.method", {"regular_subdivision", "gouraud_phong"}};
+const Condition kCentred{"set_up.method", {"highlight_subdivision"}};
+const Condition kRegular{"set_up.method", {"regular_subdivision"}};
+const Condition kDivided{"set_up.method", {"regular_subdivision", "highlight_subdivision"}};
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
@@ -26,43 +32,72 @@ std::vector<std::string> method_names() {
 }  // namespace
 
 void SetUpParameters::declare(parameter::Table& table) {
-  const std::string picture = "the picture";
-  const std::string host = "the picture, budgets host, units[] set-up processor";
-  table.choice("set_up.method", method, method_names(), About{"", "Shading method.", host});
+  declare_common(table);
   table.choice("set_up.solver", solver, {"barycentric", "published", "published_swapped"},
-               About{"", "Formulas of the quadratic's coefficients.", host, kQuadratics});
+               About{"", "Formulas of the quadratic's coefficients.", kHost, kQuadratics});
   table.choice("set_up.arithmetic", arithmetic, {"double", "float", "fixed"},
-               About{"", "Numbers that coefficients are solved in.", picture});
+               About{"", "Numbers that coefficients are solved in.", kPicture});
   table.integer("set_up.fixed_fraction_bits", fixed_fraction_bits, {16, 48},
-                About{"bits", "Fraction bits of the fixed-point numbers, of 64.", picture,
+                About{"bits", "Fraction bits of the fixed-point numbers, of 64.", kPicture,
                       Condition{"set_up.arithmetic", {"fixed"}}});
-  table.choice("set_up.attributes", attributes, {"linear", "perspective"},
-               About{"", "What lights see of a point between corners: linear on the screen, or of the surface.", host});
-  table.boolean("set_up.clamp_knots", clamp_knots,
-                About{"", "Colours at points are clamped to the levels before they are interpolated.", picture});
-  table.integer("set_up.snap_bits", snap_bits, {0, 8},
-                About{"bits", "Fraction bits of the grid that corners are moved to.", picture});
   table.real("highlight_test.threshold_levels", test_threshold_levels, {0.0, 255.0},
-             About{"levels", "A triangle is split where the quadratic is off by more.", host, kAdaptive});
+             About{"levels", "A triangle is split where the quadratic is off by more.", kHost, kAdaptive});
   table.choice(
       "highlight_test.points", test_points, {"centroid", "points"},
-      About{"", "Where the quadratic is compared with the light: the centre, or three more points.", host, kAdaptive});
+      About{"", "Where the quadratic is compared with the light: the centre, or three more points.", kHost, kAdaptive});
   table.integer("highlight_test.depth_limit", test_depth_limit, {0, 6},
-                About{"levels", "How often a triangle may be split.", host, kAdaptive});
+                About{"levels", "How often a triangle may be split.", kHost, kAdaptive});
   table.choice("subdivision.coverage", child_coverage, {"parent", "snapped"},
-               About{"", "Corners of children: exact midpoints, or moved to the grid, which may leave cracks.", picture,
-                     kAdaptive});
+               About{"", "Corners of children: exact midpoints, or moved to the grid, which may leave cracks.",
+                     kPicture, kAdaptive});
+}
+
+void SetUpParameters::declare_common(parameter::Table& table) {
+  table.choice("set_up.method", method, method_names(), About{"", "Shading method.", kHost});
+  table.choice(
+      "set_up.attributes", attributes, {"linear", "perspective"},
+      About{"", "What lights see of a point between corners: linear on the screen, or of the surface.", kHost});
+  table.boolean("set_up.clamp_knots", clamp_knots,
+                About{"", "Colours at points are clamped to the levels before they are interpolated.", kPicture});
+  table.integer("set_up.snap_bits", snap_bits, {0, 8},
+                About{"bits", "Fraction bits of the grid that corners are moved to.", kPicture});
   table.integer("pseudo_phong.depth", halvings, {0, 6},
-                About{"halvings", "Of every edge: 4^depth Gouraud triangles a triangle.", host, kPseudoPhong});
+                About{"halvings", "Of every edge: 4^depth Gouraud triangles a triangle.", kHost, kPseudoPhong});
+}
+
+void SetUpParameters::declare_adaptive(parameter::Table& table) {
+  declare_common(table);
+  table.integer("highlight_test.rings", rings, {0, 16},
+                About{"rings", "Neighbours of triangles that may hold a highlight are treated alike, so often over.",
+                      kHost, kClassified});
+  table.integer("highlight_test.refinements", refinements, {0, 16},
+                About{"", "How often the highlight's centre is looked for in turns of H1 and H2.", kHost, kCentred});
+  table.real("subdivision.area_pixels", area_pixels, {0.25, 1e6},
+             About{"pixels", "Triangles are cut in four until they are smaller on the screen.", kHost, kRegular});
+  table.real(
+      "subdivision.intensity_error", intensity_error, {0.001, 100.0},
+      About{"", "Relative error of light in the middle of an edge above which it is cut there.", kHost, kCentred});
+  table.integer("subdivision.depth_limit", depth_limit, {0, 6},
+                About{"levels", "How often a triangle, or an edge, may be cut.", kHost, kDivided});
+}
+
+void SetUpParameters::check_method(const std::string& platform, const std::string& file,
+                                   Diagnostics& diagnostics) const {
+  const auto offers = [&](const ShadingMethodTraits& traits) {
+    return traits.platform.find(platform) != std::string_view::npos;
+  };
+  const auto& traits = kShadingMethods.at(static_cast<std::size_t>(method));
+  if (offers(traits)) return;
+  std::vector<std::string_view> names;
+  for (const ShadingMethodTraits& other : kShadingMethods)
+    if (offers(other)) names.push_back(other.name);
+  diagnostics.add({file, 0, "set_up.method",
+                   fmt::format("this platform has no {}, which is offered by: {}; accepted: {}", traits.name,
+                               traits.platform, fmt::join(names, ", "))});
 }
 
 void SetUpParameters::check(const std::string& file, Diagnostics& diagnostics) const {
-  const auto& traits = kShadingMethods.at(static_cast<std::size_t>(method));
-  if (traits.platform.find("quadratic") == std::string_view::npos)
-    diagnostics.add({file, 0, "set_up.method",
-                     fmt::format("this platform has no {}, which is offered by: {}; accepted: gouraud, quadratic, "
-                                 "quadratic_adaptive, pseudo_phong",
-                                 traits.name, traits.platform)});
+  check_method("quadratic", file, diagnostics);
   const auto& known = fixed_formats();
   if (std::find(known.begin(), known.end(), fixed_fraction_bits) == known.end())
     diagnostics.add({file, 0, "set_up.fixed_fraction_bits", fmt::format("accepted: {}", fmt::join(known, ", "))});

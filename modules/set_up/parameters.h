@@ -43,8 +43,11 @@ struct SetUpParameters {
 
   // Paths "set_up.method" ..., "highlight_test.threshold_levels" ..., "subdivision.coverage", "pseudo_phong.depth"
   void declare(parameter::Table& table);
+  // The paths of a machine that shades as 003 does: "highlight_test.rings" ..., "subdivision.area_pixels" ...
+  void declare_adaptive(parameter::Table& table);
   // A fixed format that the program has not, a method that other platforms offer.
   void check(const std::string& file, Diagnostics& diagnostics) const;
+  void check_method(const std::string& platform, const std::string& file, Diagnostics& diagnostics) const;
 
   // Colours are linear on what is drawn.
   bool linear() const { return method != ShadingMethod::quadratic && method != ShadingMethod::quadratic_adaptive; }
@@ -61,6 +64,9 @@ struct SetUpParameters {
 
   // Fraction bits of corners: those of the grid, and one for every time that a triangle may be split.
   int corner_bits() const;
+
+ private:
+  void declare_common(parameter::Table& table);
 };
 
 // Fraction bits that FixedNumber is compiled for.

@@ -7,18 +7,26 @@
 namespace rastertlm::quadratic {
 
 void Machine::declare(parameter::Table& table) {
-  table.integer("schema", schema, {1, 1},
-                {.unit = "", .description = "Version of the machine file's form.", .moves = "nothing", .exempt = true});
+  declare_file(table);
   table.choice("platform", platform, {"quadratic"},
                {.unit = "", .description = "Which kind of machine this is.", .moves = "nothing", .exempt = true});
+  set_up.declare(table);
+  declare_units(table);
+}
+
+void Machine::declare_file(parameter::Table& table) {
+  table.integer("schema", schema, {1, 1},
+                {.unit = "", .description = "Version of the machine file's form.", .moves = "nothing", .exempt = true});
   table.choice("fidelity", fidelity, {"line"},
                {.unit = "",
                 .description = "One transaction a scan line and link, closed-form spans; the only fidelity so far.",
                 .moves = "nothing",
                 .exempt = true});
+}
+
+void Machine::declare_units(parameter::Table& table) {
   video.declare(table);
   host.declare(table, "answer.frame_rate_hz");
-  set_up.declare(table);
   span_unit.declare(table);
   frame_store.declare(table);
   software.declare(table);
@@ -26,6 +34,10 @@ void Machine::declare(parameter::Table& table) {
 
 void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
   set_up.check(file, diagnostics);
+  check_units(diagnostics, file);
+}
+
+void Machine::check_units(Diagnostics& diagnostics, const std::string& file) const {
   span_unit.check(file, diagnostics);
   frame_store.check(file, diagnostics);
   check_depth(diagnostics, file);

@@ -33,6 +33,8 @@ struct Machine {
   frame_store::FrameStoreParameters frame_store;
   host::SoftwareParameters software;  // that the machine is compared with
 
+  const char* platform_name = "quadratic";
+
   void declare(parameter::Table& table);
   // What no single range can say; `file` names the machine file in the diagnostics.
   void check(Diagnostics& diagnostics, const std::string& file) const;
@@ -46,6 +48,12 @@ struct Machine {
   // Numbers of triangles are stored for ties where several units draw in an order of their own.
   bool stores_numbers() const { return span_unit.units > 1 && span_unit.share == span_unit::Share::triangles; }
   frame_store::MemoryLayout layout() const;
+
+ protected:
+  // What machines with a span unit have in common.
+  void declare_file(parameter::Table& table);
+  void declare_units(parameter::Table& table);
+  void check_units(Diagnostics& diagnostics, const std::string& file) const;
 
  private:
   void check_depth(Diagnostics& diagnostics, const std::string& file) const;

@@ -41,10 +41,13 @@ inline constexpr auto kSetting = parameter::StatisticKind::setting;
 
 // Of which kinds of machine a section speaks: of both where only described.
 struct Kinds {
-  bool boards = true;  // object processors
-  bool spans = true;   // a span unit
+  bool boards = true;      // object processors
+  bool spans = true;       // a span unit
+  bool highlights = true;  // looked for before drawing
   explicit Kinds(const std::string& platform)
-      : boards(platform.empty() || platform == "imogene"), spans(platform != "imogene") {}
+      : boards(platform.empty() || platform == "imogene"),
+        spans(platform != "imogene"),
+        highlights(platform.empty() || platform == "adaptive") {}
 };
 
 template <class Visitor>
@@ -248,6 +251,21 @@ void visit_span(Visitor& v, run::SpanFrameFigures& s) {
 }
 
 template <class Visitor>
+void visit_highlight(Visitor& v, run::HighlightFigures& h) {
+  v.value("highlight_tested", {"triangles", kCount, "that were looked at for highlights"}, h.tested);
+  v.value("potentially_highlighted", {"triangles", kCount, "of them, that may hold a highlight's centre (PHT)"},
+          h.potentially);
+  v.value("highlight_neighbours", {"triangles", kCount, "treated alike because they lie beside one"}, h.neighbours);
+  v.value("divided", {"triangles", kCount, "cut up, of both"}, h.divided);
+  v.value("parts", {"triangles", kCount, "into which they were cut"}, h.parts);
+  v.value("highlight_centres", {"centres", kCount, "found inside a triangle, a light"}, h.centres);
+  v.value("highlights_beside", {"centres", kCount, "found outside: a corner is put on the nearest edge"}, h.beside);
+  v.value("highlights_unfound", {"triangles", kCount, "where the search had no answer"}, h.unfound);
+  v.value("parts_at_limit", {"triangles", kCount, "not cut further, although larger or further off than the threshold"},
+          h.at_limit);
+}
+
+template <class Visitor>
 void visit_board(Visitor& v, run::FrameFigures& f) {
   v.value("words_ahead",
           {"words", kCount, "in use that belong to an update which the computation units have not finished"},
@@ -292,6 +310,7 @@ void visit(Visitor& v, run::FrameFigures& f, const Kinds& kinds) {
   v.value("words_sent", {"words", kCount, "written to the object boards for this frame"}, f.words_sent);
   if (kinds.boards) visit_board(v, f);
   if (kinds.spans) visit_span(v, f.span);
+  if (kinds.highlights) visit_highlight(v, f.highlight);
   v.derived_object("error", "the figures of errors[] against the reference \"ideal\"", find_error(f, "ideal"),
                    [](Visitor& e, reference::ErrorFigures& figures) { visit(e, figures); });
   v.list("errors", "distance from each exact picture", f.errors,

@@ -204,6 +204,12 @@ std::string pictures_section(const run::Result& result) {
     if (f.span.splits > 0)
       table.row({"largest step of colour beside a split triangle", fmt::format("{:.4g}", f.span.largest_step_levels),
                  "levels"});
+    if (f.highlight.tested > 0) {
+      add("may hold a highlight", f.highlight.potentially, "triangles");
+      add("lie beside one that may", f.highlight.neighbours, "triangles");
+      add("cut up, of these", f.highlight.divided, "triangles");
+      add("parts of them", f.highlight.parts, "triangles");
+    }
     add("in one colour", f.span.flat, "triangles");
     add("light evaluated", f.span.lighting_evaluations, "times");
   }

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "platforms/adaptive/machine.h"
 #include "platforms/imogene/machine.h"
 #include "platforms/quadratic/machine.h"
 #include "src/config/document.h"
@@ -71,7 +72,7 @@ class Settable {
 
  private:
   Checked find(const std::string& path, const config::Raw* value);
-  std::variant<imogene::Machine, quadratic::Machine> machine_;
+  std::variant<imogene::Machine, quadratic::Machine, adaptive::Machine> machine_;
   scene::SceneDescription description_;
   parameter::Table machine_table_;
   parameter::Table scene_table_;

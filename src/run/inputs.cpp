@@ -102,9 +102,11 @@ void InputFiles::read_machine(const std::vector<config::Override>& overrides, bo
   const std::string& file = content.machine_file;
   const config::Document& machine_file = document(file);
   const bool schema = config::check_schema(machine_file, kSchema, diagnostics);
-  const auto platform = config::choose_platform(machine_file, overrides, {"imogene", "quadratic"}, diagnostics);
+  const auto platform =
+      config::choose_platform(machine_file, overrides, {"imogene", "quadratic", "adaptive"}, diagnostics);
   if (!schema || !platform) return;
   if (*platform == "quadratic") content.machine = quadratic::Machine{};
+  if (*platform == "adaptive") content.machine = adaptive::Machine{};
   Diagnostics found;
   std::visit(
       [&](auto& machine) {
@@ -193,10 +195,12 @@ std::string resolved_scene_toml(const Inputs& inputs) {
 std::vector<std::pair<std::string, parameter::Table>> described_tables() {
   static imogene::Machine imogene_machine;
   static quadratic::Machine quadratic_machine;
+  static adaptive::Machine adaptive_machine;
   static scene::SceneDescription description;
   std::vector<std::pair<std::string, parameter::Table>> tables;
   tables.emplace_back("machine imogene", parameter::view(imogene_machine));
   tables.emplace_back("machine quadratic", parameter::view(quadratic_machine));
+  tables.emplace_back("machine adaptive", parameter::view(adaptive_machine));
   tables.emplace_back("scene", parameter::view(description));
   return tables;
 }

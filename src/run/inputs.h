@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "platforms/adaptive/machine.h"
 #include "platforms/imogene/machine.h"
 #include "platforms/quadratic/machine.h"
 #include "src/base/errors.h"
@@ -20,7 +21,7 @@ bool names_scene(const std::string& path);
 struct Inputs::Content {
   std::string machine_file;
   std::string scene_file;
-  std::variant<imogene::Machine, quadratic::Machine> machine;
+  std::variant<imogene::Machine, quadratic::Machine, adaptive::Machine> machine;
   config::Origins machine_origins;
   scene::SceneDescription description;
   config::Origins scene_origins;

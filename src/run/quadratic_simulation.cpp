@@ -63,6 +63,16 @@ FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown
             static_cast<double>(shown.set_up.end_ps - shown.set_up.begin_ps) * kMicrosecond,
             static_cast<double>(shown.set_up.shown_ps - shown.set_up.begin_ps) * kMicrosecond,
             shown.torn_lines};
+  const set_up::SubdivisionCounts& cut = counts.subdivision;
+  f.highlight = {counts.classified.tested,
+                 counts.classified.potentially,
+                 counts.classified.neighbours,
+                 cut.divided,
+                 cut.parts,
+                 cut.centres,
+                 cut.beside,
+                 cut.unfound,
+                 cut.at_limit};
   return f;
 }
 
@@ -142,7 +152,7 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   } catch (const InputError& error) {
     throw inputs.content->located(error);
   }
-  result.platform = "quadratic";
+  result.platform = machine.platform_name;
   result.config_digest = config_digest(inputs);
   result.scene_digest = scene.digest;
   result.frame_count = options.frames;

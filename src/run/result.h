@@ -155,6 +155,19 @@ struct SpanFrameFigures {
   std::uint64_t torn_lines = 0;         // of its screen, that do not show it as it was when it was whole
 };
 
+// Of a machine that looks for highlights before it draws (003).
+struct HighlightFigures {
+  std::uint64_t tested = 0;       // triangles
+  std::uint64_t potentially = 0;  // that may hold the centre of a highlight
+  std::uint64_t neighbours = 0;   // treated alike because they lie beside such
+  std::uint64_t divided = 0;      // of all these, cut up
+  std::uint64_t parts = 0;        // into
+  std::uint64_t centres = 0;      // found inside, a light
+  std::uint64_t beside = 0;       // found outside
+  std::uint64_t unfound = 0;
+  std::uint64_t at_limit = 0;  // not cut further, and larger or further off than the threshold
+};
+
 // One displayed frame: its figures, not its pixels. Of interlaced video two fields are one frame: figures of triangles
 // are those of the first field's pose, operations and words those of both.
 struct FrameFigures {
@@ -182,6 +195,7 @@ struct FrameFigures {
   std::int64_t line_slack_cycles = 0;     // pixel clocks left at its worst line
   std::int64_t retrace_slack_cycles = 0;  // and of its retrace
   SpanFrameFigures span;                  // of a machine with a span unit
+  HighlightFigures highlight;             // of an adaptive one
   std::optional<double> host_slack_us;  // between the last host's last word and its retrace; none: no new coefficients
   std::vector<reference::ErrorFigures> errors;  // empty without reference
 };

@@ -139,8 +139,10 @@ TEST(JsonReport, EveryKeyIsDescribedAndEveryDescriptionIsAKey) {
   run::Result result = example_result();
   std::set<std::string> written;
   add_paths(example_json(), "", written);
-  result.platform = "quadratic";
-  add_paths(Json::parse(json_text({result, true})), "", written);
+  for (const char* platform : {"quadratic", "adaptive"}) {
+    result.platform = platform;
+    add_paths(Json::parse(json_text({result, true})), "", written);
+  }
   written.insert("images[].error");  // null without reference: described by itself
   std::set<std::string> described;
   for (const parameter::Statistic& s : statistics()) {

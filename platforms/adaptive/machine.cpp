@@ -1,0 +1,28 @@
+#include "platforms/adaptive/machine.h"
+
+namespace rastertlm::adaptive {
+
+Machine::Machine() {
+  platform_name = "adaptive";
+  set_up.method = ShadingMethod::regular_subdivision;
+  set_up.attributes = set_up::Attributes::perspective;
+}
+
+void Machine::declare(parameter::Table& table) {
+  declare_file(table);
+  table.choice("platform", kind, {"adaptive"},
+               {.unit = "", .description = "Which kind of machine this is.", .moves = "nothing", .exempt = true});
+  set_up.declare_adaptive(table);
+  declare_units(table);
+}
+
+void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
+  set_up.check_method("adaptive", file, diagnostics);
+  if (set_up.method == ShadingMethod::gouraud_phong || shades_pixels(set_up.method))
+    diagnostics.add({file, 0, "set_up.method",
+                     "pixels are not shaded one by one on this machine yet; accepted: gouraud, pseudo_phong, "
+                     "regular_subdivision, highlight_subdivision"});
+  check_units(diagnostics, file);
+}
+
+}  // namespace rastertlm::adaptive
