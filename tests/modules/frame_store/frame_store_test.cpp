@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "modules/span_unit/span_unit.h"
+#include "tests/support/figure_7.h"
 #include "tests/support/span_pixels.h"
 
 namespace rastertlm::frame_store {
@@ -145,6 +147,30 @@ TEST_P(FrameStoreTest, KeepsTheFirstOfEqualDepthsWithoutNumbers) {
     kept.push_back(store.counters().fragments_kept);
   }
   EXPECT_EQ(kept[0], kept[1]);
+}
+
+// Figure 7 as it is stored: eight bits of I at a time, with the sign above them, from wherever they are read.
+TEST_P(FrameStoreTest, ShowsFigure7) {
+  span_unit::SpanUnit unit(span_unit::SpanUnitParameters{}, kColumns, kLines, GetParam());
+  const span_unit::TriangleLoad load = test::figure_7_load();
+  for (const unsigned from : {0U, 4U, 8U, 12U, 16U, 20U, 23U}) {
+    FrameStore::Format of = format();
+    of.pixels.word_bits = from + 9;
+    of.pixels.fraction_bits = from;
+    FrameStore store({}, of, GetParam());
+    store.clear();
+    store.draw(unit.draw(load).spans, load.object, 0);
+    store.swap();
+    frame::RgbLine rgb;
+    rgb.resize(kColumns);
+    for (const test::Figure7Row& row : test::figure_7()) {
+      const std::uint64_t read = row.i >> from;
+      const std::uint64_t level = (read & 0x100) != 0 ? 0 : read & 0xFF;
+      store.scan_out(row.line, rgb);
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        EXPECT_EQ(rgb.levels[3 * row.pixel + channel], level) << "clock " << row.clock << ", bits from " << from;
+    }
+  }
 }
 
 // One pixel after the other, in the order in which they come.

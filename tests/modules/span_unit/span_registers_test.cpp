@@ -4,49 +4,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <random>
-#include <sstream>
-#include <string>
 #include <vector>
 
 #include "modules/span_unit/parameters.h"
+#include "src/base/fixed_point.h"
+#include "tests/support/figure_7.h"
 
 namespace rastertlm::span_unit {
 namespace {
 
-struct Row {
-  int clock = 0;
-  bool load_line = false;
-  std::uint64_t line_step = 0, start = 0, pixel_step = 0, di = 0, i = 0;
-};
-
-// Lines of the figure's trace: after the first, every load is a line step.
-std::vector<Row> figure_7() {
-  std::ifstream file(std::string(RASTERTLM_SOURCE_DIR) + "/tests/golden/fig7_span_unit_trace.csv");
-  std::vector<Row> rows;
-  for (std::string text; std::getline(file, text);) {
-    if (text.empty() || text[0] == '#' || text.starts_with("clock") || text.find("reset") != std::string::npos)
-      continue;
-    std::vector<std::string> cells;
-    std::istringstream line(text);
-    for (std::string cell; std::getline(line, cell, ',');) cells.push_back(cell);
-    const auto hex = [&](std::size_t k) { return std::stoull(cells.at(k), nullptr, 16); };
-    rows.push_back({std::stoi(cells[0]), cells[1] == "load_line", hex(4), hex(5), hex(6), hex(7), hex(8)});
-  }
-  return rows;
-}
-
-// The six numbers that are the figure's inputs; everything else follows.
-constexpr ColourWords kFigure7{0x06AFFFF8, 0xFFFD1688, 0x00150725, 0xFFFFEF9E, 0xFFFFF45E, 0xFFFFFB1E};
-
 TEST(SpanRegisters, GoThroughFigure7) {
-  const std::vector<Row> rows = figure_7();
+  const std::vector<test::Figure7Row> rows = test::figure_7();
   ASSERT_EQ(rows.size(), 10U);
   ColourRegisters registers(32);
-  for (const Row& row : rows) {
+  for (const test::Figure7Row& row : rows) {
     if (row.clock == 1)
-      registers.load(kFigure7);
+      registers.load(test::kFigure7);
     else if (row.load_line)
       registers.step_line(false);
     else

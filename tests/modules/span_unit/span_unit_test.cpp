@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "modules/span_unit/span_registers.h"
+#include "src/base/fixed_point.h"
+#include "tests/support/figure_7.h"
 #include "tests/support/span_pixels.h"
 
 namespace rastertlm::span_unit {
@@ -83,6 +86,23 @@ Drawn drawn_by_unit(const SpanUnitParameters& parameters, const TriangleLoad& lo
   return drawn;
 }
 
+// floor(a b / 2^down) of a word of 40 bits at most and a fraction of 17.
+std::int64_t product(std::int64_t a, std::int64_t b, unsigned down) {
+  return floor_div(a * b, std::int64_t{1} << down);
+}
+
+// From the edge to the first pixel, f in `bits`, to nearest: I += f (dI - T5 (1 - f)), dI += 2 T5 f, products floored;
+// dI and 2 T5 as signed words.
+void prestep(ColourRegisters& registers, std::uint64_t pixel_pixel, unsigned word, const EdgeWords& edge,
+             unsigned bits) {
+  const std::int64_t one = std::int64_t{1} << bits;
+  const std::int64_t f = (2 * edge.rest * one + edge.divisor) / (2 * edge.divisor);
+  const std::int64_t second = sign_extend(pixel_pixel, word);
+  const std::int64_t slope = sign_extend(registers.di(), word) - product(second, one - f, bits + 1);
+  registers.set_line(registers.i() + static_cast<std::uint64_t>(product(slope, f, bits)),
+                     registers.di() + static_cast<std::uint64_t>(product(second, f, bits)));
+}
+
 // Clock by clock: figure 6, three sets and a linear one.
 Drawn drawn_by_registers(const SpanUnitParameters& parameters, const TriangleLoad& load) {
   Drawn drawn;
@@ -91,6 +111,7 @@ Drawn drawn_by_registers(const SpanUnitParameters& parameters, const TriangleLoa
   std::vector<ColourRegisters> colour(3, ColourRegisters(word_bits));
   ColourRegisters depth(static_cast<unsigned>(parameters.depth_bits + parameters.depth_fraction_bits));
   const bool lattice = parameters.start_edge == StartEdge::lattice;
+  std::array<std::uint64_t, 3> pixel_pixel{};
   EdgeWords start;
   EdgeWords end;
   for (std::size_t h = 0; h < load.count; ++h) {
@@ -99,7 +120,10 @@ Drawn drawn_by_registers(const SpanUnitParameters& parameters, const TriangleLoa
     for (std::int64_t k = 0; k < half.lines; ++k) {
       bool carries = false;
       if (k == 0 && loads) {
-        for (std::size_t c = 0; c < 3; ++c) colour[c].load(words_of(half.registers, c));
+        for (std::size_t c = 0; c < 3; ++c) {
+          colour[c].load(words_of(half.registers, c));
+          pixel_pixel[c] = half.registers.pixel_pixel[c];
+        }
         depth.load(words_of(half.registers, kDepthSet));
         start = half.start;
       } else {
@@ -111,6 +135,11 @@ Drawn drawn_by_registers(const SpanUnitParameters& parameters, const TriangleLoa
         end = half.end;
       else
         end.advance();
+      if (parameters.start_edge == StartEdge::prestep) {
+        const auto bits = static_cast<unsigned>(parameters.prestep_bits);
+        for (std::size_t c = 0; c < 3; ++c) prestep(colour[c], pixel_pixel[c], word_bits, start, bits);
+        prestep(depth, 0, static_cast<unsigned>(parameters.depth_bits + parameters.depth_fraction_bits), start, bits);
+      }
       std::uint64_t cycles = 0;
       for (std::int64_t x = start.column; x < std::min<std::int64_t>(end.column, kColumns); ++x) {
         if (x >= 0) {
@@ -132,7 +161,7 @@ Drawn drawn_by_registers(const SpanUnitParameters& parameters, const TriangleLoa
 TEST_P(SpanUnitTest, ShowsWhatTheRegistersStepThrough) {
   std::size_t shown = 0;
   for (const std::int64_t word : {18, 32, 33, 40})
-    for (const StartEdge start : {StartEdge::lattice, StartEdge::published})
+    for (const StartEdge start : {StartEdge::lattice, StartEdge::published, StartEdge::prestep})
       for (const Carry carry : {Carry::rank, Carry::clock})
         for (int round = 0; round < 40; ++round) {
           SpanUnitParameters parameters;
@@ -142,6 +171,7 @@ TEST_P(SpanUnitTest, ShowsWhatTheRegistersStepThrough) {
           parameters.depth_fraction_bits = number(0, 8);
           parameters.start_edge = start;
           parameters.carry = carry;
+          parameters.prestep_bits = number(1, 16);
           const TriangleLoad triangle = load(kLines);
           const Drawn by_unit = drawn_by_unit(parameters, triangle, GetParam());
           const Drawn by_registers = drawn_by_registers(parameters, triangle);
@@ -149,7 +179,34 @@ TEST_P(SpanUnitTest, ShowsWhatTheRegistersStepThrough) {
           ASSERT_EQ(by_unit.cycles, by_registers.cycles);
           for (const Pixel& pixel : by_unit.picture) shown += pixel.shown ? 1 : 0;
         }
-  EXPECT_GT(shown, 100'000U);
+  EXPECT_GT(shown, 150'000U);
+}
+
+// Figure 7 through what draws pictures: its start edge's registers are what the lines begin with, its pixels what they
+// go on with. Alone, where lines are drawn in one go, and beside another unit, where they are crossed one by one.
+TEST_P(SpanUnitTest, DrawsFigure7) {
+  const std::vector<test::Figure7Row> rows = test::figure_7();
+  ASSERT_EQ(rows.size(), 10U);
+  for (const std::int64_t units : {1, 2}) {
+    SpanUnitParameters parameters;
+    parameters.units = units;
+    SpanUnit unit(parameters, kColumns, kLines, GetParam());
+    const DrawnLines drawn = unit.draw(test::figure_7_load());
+    ASSERT_EQ(drawn.spans.size(), 4U);
+    EXPECT_EQ(drawn.pixels, rows.size());
+    ColourRegisters registers(32);
+    for (const test::Figure7Row& row : rows) {
+      const Span& span = drawn.spans[row.line];
+      ASSERT_EQ(span.line, row.line);
+      ASSERT_LT(row.pixel, span.count);
+      if (row.pixel == 0)
+        registers.load({span.i[1], 0, span.di[1], 0, 0, span.pixel_pixel[1]});
+      else
+        registers.step_pixel();
+      EXPECT_EQ(registers.i(), row.i) << "clock " << row.clock;
+      EXPECT_EQ(registers.di(), row.di) << "clock " << row.clock;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, SpanUnitTest, testing::ValuesIn(available_vector_variants()),
