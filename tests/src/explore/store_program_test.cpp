@@ -104,6 +104,35 @@ TEST_F(StoreTest, AFailingPointIsKeptAndStopsNothing) {
   }
 }
 
+// A worker that is killed is a failed point; the others go on, and it can be tried again.
+TEST_F(StoreTest, AWorkerThatDiesIsAFailedPointThatIsTriedAgain) {
+  write("sweep.toml", grid(40));
+  const pid_t explorer = start(run_sweep({"--jobs", "2"}));
+  const std::string children = fmt::format("/proc/{0}/task/{0}/children", explorer);
+  int kills = 0;
+  ASSERT_TRUE(wait_until([&] {
+    std::ifstream list(children);
+    for (pid_t worker = 0; list >> worker;) kills += ::kill(worker, SIGKILL) == 0 ? 1 : 0;
+    return kills >= 6;
+  }));
+  const Outcome outcome = wait_for(explorer);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::size_t failed = 0;
+  for (const explore::Row& row : table().rows) {
+    EXPECT_NE(row.state, explore::State::waiting);
+    if (row.state != explore::State::failed) continue;
+    ++failed;
+    EXPECT_THAT(row.error, HasSubstr("the simulation was ended by signal 9 (Killed)"));
+  }
+  EXPECT_GE(failed, 1U);
+  EXPECT_LE(failed, static_cast<std::size_t>(kills));
+  EXPECT_THAT(run(run_sweep({"--resume"})).out,
+              HasSubstr(fmt::format(": 0 simulated, 80 had their result; {} failed", failed)));
+  EXPECT_THAT(run(run_sweep({"--resume", "--retry"})).out, HasSubstr(fmt::format(": {} simulated", failed)));
+  ASSERT_EQ(run({"explore", "run", "sweep.toml", "--store", "whole.sqlite"}).exit_code, 0);
+  EXPECT_TRUE(results() == results("whole.sqlite"));
+}
+
 // Killed at random moments, by a signal that nobody can answer.
 TEST_F(StoreTest, KilledAndResumedIsAsIfNeverKilled) {
   constexpr int kKills = 10;
