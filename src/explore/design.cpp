@@ -59,27 +59,29 @@ double number_of(const config::Raw& raw) {
   return std::get<double>(raw.value);
 }
 
-// The values that were drawn become the axis' choices, in order; the points say which.
+// The values that were drawn become the axis' choices, in order, after the baseline's; the points say which.
 std::vector<std::size_t> choose(Vary& axis, const std::vector<double>& fractions) {
-  std::map<double, std::size_t> places;
   std::vector<config::Raw> values;
   values.reserve(fractions.size());
+  std::map<double, config::Override> drawn;
   for (const double fraction : fractions) {
     values.push_back(value_at(*axis.span, fraction));
-    places.emplace(number_of(values.back()), 0);
+    drawn.emplace(number_of(values.back()), run::override_of(axis.path, values.back()));
   }
-  const std::size_t before = axis.choices.size();  // the baseline's
-  std::vector<Choice> choices(places.size());
-  std::size_t next = before;
-  for (auto& [number, place] : places) place = next++;
+  std::map<double, std::size_t> places;
+  const std::size_t before = axis.choices.size();
+  for (const auto& [number, set] : drawn) {
+    std::size_t place = 0;
+    while (place < before && axis.choices[place].text != set.text) ++place;
+    if (place == before) {
+      place = axis.choices.size();
+      axis.choices.push_back({set.text, {set}, ""});
+    }
+    places[number] = place;
+  }
   std::vector<std::size_t> chosen;
-  for (const config::Raw& value : values) {
-    const std::size_t place = places.at(number_of(value));
-    const config::Override set = run::override_of(axis.path, value);
-    choices[place - before] = {set.text, {set}, ""};
-    chosen.push_back(place);
-  }
-  axis.choices.insert(axis.choices.end(), choices.begin(), choices.end());
+  chosen.reserve(values.size());
+  for (const config::Raw& value : values) chosen.push_back(places.at(number_of(value)));
   return chosen;
 }
 

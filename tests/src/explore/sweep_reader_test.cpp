@@ -165,6 +165,16 @@ TEST_F(SweepTest, RandomPointsStayInTheirRanges) {
   EXPECT_EQ(drawn[2] + drawn[3] + drawn[4] + drawn[5], 200);
 }
 
+TEST_F(SweepTest, TheBaselineAmongDrawnValuesIsOneOfThem) {
+  Sweep sweep = read(fmt::format("mode = \"random\"\npoints = 100\n{}[baseline]\n\"{}\" = 3\n",
+                                 vary(kUnits, "from = 2\nto = 5"), kUnits));
+  const Design design(sweep);
+  EXPECT_THAT(texts(sweep.axes[0]), ElementsAre("3", "2", "4", "5"));
+  std::set<std::size_t> used;
+  for (std::uint64_t number = 0; number < design.size(); ++number) used.insert(design.point(number)[0]);
+  EXPECT_EQ(used.size(), 4U);
+}
+
 TEST_F(SweepTest, VariantsSetSeveralParametersTogether) {
   const Sweep sweep = read(
       "[[vary]]\nname = \"loader\"\nvariant = [ { name = \"sequencer\", set = { loader.kind = \"sequencer\", "
