@@ -9,6 +9,7 @@
 #include "modules/host/parameters.h"
 #include "modules/host/set_up_work.h"
 #include "modules/host/software_renderer.h"
+#include "modules/pixel_unit/parameters.h"
 #include "modules/set_up/parameters.h"
 #include "modules/set_up/word_format.h"
 #include "modules/span_unit/parameters.h"
@@ -30,6 +31,7 @@ struct Machine {
   host::ProcessorParameters host;
   set_up::SetUpParameters set_up;
   span_unit::SpanUnitParameters span_unit;
+  pixel_unit::PixelUnitParameters pixel_unit;  // of machines whose method shades pixels
   frame_store::FrameStoreParameters frame_store;
   host::SoftwareParameters software;  // that the machine is compared with
 

@@ -102,8 +102,19 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
         note_screen(number, picture);
       });
   set_up_processor_->bus.bind(span_unit_->bus);
-  span_unit_->out.bind(frame_store_->in);
+  bind_pixels();
   frame_store_->out.bind(video_output_->in);
+}
+
+// What shades pixels stands between the span unit and the store.
+void Quadratic::bind_pixels() {
+  if (work_->shader() == nullptr) return span_unit_->out.bind(frame_store_->in);
+  stream::Link& shaded =
+      links_.emplace_back("pixel unit to frame store", links_.at(1).bits(), machine_.pixel_unit.clock());
+  pixel_unit_ =
+      std::make_unique<pixel_unit::PixelUnitModule>("pixel_unit", machine_.pixel_unit, *work_->shader(), shaded);
+  span_unit_->out.bind(pixel_unit_->in);
+  pixel_unit_->out.bind(frame_store_->in);
 }
 
 host::Rendering Quadratic::rendering() const {
@@ -141,7 +152,7 @@ bool Quadratic::waits_for_screen() const {
 // Called when a frame is in the store and its lines are on their way.
 void Quadratic::note_drawn(const host::SetUpFrame& frame) {
   shown_.set_up = frame;
-  shown_.drawn_ps = span_unit_->end_ps();
+  shown_.drawn_ps = std::max(span_unit_->end_ps(), pixel_unit_ ? pixel_unit_->drained_ps() : 0);
   const std::uint64_t screen_ps = frame_store_->screen_ps(frame.shown_ps);
   const Cycles last_pixel = timing_.first_pixel(static_cast<std::size_t>(machine_.video.lines) - 1) +
                             Cycles(static_cast<std::uint64_t>(machine_.video.columns) - 1);
@@ -225,6 +236,11 @@ void Quadratic::check_identities() const {
   };
   set_up_processor_->occupancy().check("set-up processor");
   for (const stream::Occupancy& unit : span_unit_->occupancies()) unit.check("span unit");
+  if (pixel_unit_) {
+    pixel_unit_->occupancy().check("pixel unit");
+    require("pixel unit", pixel_unit_->shaded() + pixel_unit_->passed(), span_unit_->counters().pixels,
+            "pixels shaded and passed = pixels drawn");
+  }
   const frame_store::StoreCounters& store = store_.counters();
   require("frame store", store.fragments_in, store.fragments_kept + store.fragments_hidden,
           "fragments in = kept + hidden");

@@ -13,6 +13,7 @@
 #include "modules/frame_store/frame_store_module.h"
 #include "modules/host/set_up_processor_module.h"
 #include "modules/host/software_renderer.h"
+#include "modules/pixel_unit/pixel_unit_module.h"
 #include "modules/span_unit/span_unit_module.h"
 #include "modules/video/video_output_module.h"
 #include "platforms/quadratic/machine.h"
@@ -72,6 +73,8 @@ class Quadratic {
   host::Rendering rendering() const;
   const host::SetUpProcessorModule& set_up_processor() const { return *set_up_processor_; }
   const span_unit::SpanUnitModule& span_unit() const { return *span_unit_; }
+  // Of a machine whose method shades pixels; else null.
+  const pixel_unit::PixelUnitModule* pixel_unit() const { return pixel_unit_.get(); }
   const frame_store::FrameStore& store() const { return store_; }
   const frame_store::FrameStoreModule& frame_store() const { return *frame_store_; }
   const std::deque<stream::Link>& links() const { return links_; }
@@ -83,6 +86,7 @@ class Quadratic {
 
  private:
   void check_scene() const;
+  void bind_pixels();
   void note_screen(std::uint64_t number, const frame::Frame& pixels);
   bool waits_for_screen() const;
   void hand_on();
@@ -104,6 +108,7 @@ class Quadratic {
 
   std::unique_ptr<host::SetUpProcessorModule> set_up_processor_;
   std::unique_ptr<span_unit::SpanUnitModule> span_unit_;
+  std::unique_ptr<pixel_unit::PixelUnitModule> pixel_unit_;
   std::unique_ptr<frame_store::FrameStoreModule> frame_store_;
   std::unique_ptr<video::VideoOutputModule> video_output_;
 
