@@ -29,12 +29,15 @@ MemoryLayout MemoryLayout::of(const FrameStoreParameters& parameters, std::uint6
   layout.lines = lines;
   layout.banks = static_cast<std::uint64_t>(parameters.banks);
   const auto width = static_cast<std::uint64_t>(parameters.width_bits);
-  const std::uint64_t tested = parameters.depth_test ? depth_bits + (ties ? kTieBits : 0U) : 0U;
-  const std::uint64_t pixel = tested + kColourBits;
-  layout.pixels_a_word = std::max<std::uint64_t>(width / pixel, 1);
-  layout.depth_words = parameters.depth_test ? ceil_of(tested, width) : 0;
-  layout.write_words = ceil_of(pixel, width);
-  layout.colour_words = ceil_of(kColourBits, width);
+  layout.buffers = static_cast<std::uint64_t>(parameters.buffers);
+  if (parameters.depth_test) {
+    layout.depth_bits = depth_bits;
+    layout.number_bits = ties ? kTieBits : 0U;
+  }
+  layout.pixels_a_word = std::max<std::uint64_t>(width / layout.pixel_bits(), 1);
+  layout.depth_words = ceil_of(layout.depth_bits + layout.number_bits, width);
+  layout.write_words = ceil_of(layout.pixel_bits(), width);
+  layout.colour_words = ceil_of(layout.colour_bits, width);
   return layout;
 }
 

@@ -15,6 +15,11 @@ namespace rastertlm::frame_store {
 struct MemoryLayout {
   std::uint64_t columns = 0;
   std::uint64_t lines = 0;
+  // Of a pixel, in every buffer.
+  std::uint64_t colour_bits = kColourBits;
+  std::uint64_t depth_bits = 0;   // 0 where there is no test
+  std::uint64_t number_bits = 0;  // of the triangle's number, where ties need it
+  std::uint64_t buffers = 1;
   std::uint64_t pixels_a_word = 1;  // 1 where a pixel takes several words
   std::uint64_t depth_words = 1;    // read to test a group; 0 where there is no test
   std::uint64_t write_words = 1;    // written where a pixel of it wins
@@ -23,6 +28,8 @@ struct MemoryLayout {
 
   static MemoryLayout of(const FrameStoreParameters& parameters, std::uint64_t columns, std::uint64_t lines,
                          unsigned depth_bits, bool ties);
+
+  std::uint64_t pixel_bits() const { return colour_bits + depth_bits + number_bits; }
 
   // Where it matters which pixels of a span won, and not only how many.
   bool asks_which_won() const { return pixels_a_word > 1 || banks > 1; }

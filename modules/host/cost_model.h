@@ -23,6 +23,11 @@ class HostCost {
   Cycles bus(std::uint64_t words) const { return word_ * words; }
   Cycles word() const { return word_; }
   std::uint64_t bus_words(std::uint64_t words) const { return words * bus_words_a_word_; }
+  // Of words of several widths: what they are on the bus, and the time that takes.
+  std::uint64_t bus_bits() const { return static_cast<std::uint64_t>(parameters_.bus_bits); }
+  Cycles bus_transfer(std::uint64_t bus_words) const {
+    return Cycles(bus_words * static_cast<std::uint64_t>(parameters_.bus_cycles_per_word));
+  }
   // What the sender's processor spends to start a message.
   Cycles link_set_up() const { return link_set_up_; }
   // A message of `bytes` on its way from one processor to the next.

@@ -61,8 +61,10 @@ void SetUpProcessorModule::compute(SetUpFrame& frame) {
 }
 
 void SetUpProcessorModule::send(const span_unit::TriangleLoad& load, SetUpFrame& frame) {
-  const std::uint64_t words = work_.words_of(load);
-  const Cycles writing = cost_.bus(words);
+  const set_up::LoadWords kinds = work_.words_of(load);
+  const std::uint64_t words = kinds.total();
+  const std::uint64_t bus_words = set_up::bus_words(kinds, work_.widths(), cost_.bus_bits());
+  const Cycles writing = cost_.bus_transfer(bus_words);
   payload_.load = &load;
   payload_.words = words;
   payload_.write_ps = cost_.clock().picoseconds(writing);
@@ -78,7 +80,6 @@ void SetUpProcessorModule::send(const span_unit::TriangleLoad& load, SetUpFrame&
   occupancy_.blocked += blocked.count();
   occupancy_.busy += writing.count();
   words_sent_ += words;
-  const std::uint64_t bus_words = cost_.bus_words(words);
   link_.record(bus_words, Cycles(bus_words), begin_ps, now_ps());
 }
 

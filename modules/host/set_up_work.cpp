@@ -51,6 +51,12 @@ set_up::LightingCounts since(const set_up::LightingCounts& now, const set_up::Li
   return {now.evaluations - then.evaluations, now.clamped_knots - then.clamped_knots, now.not_finite - then.not_finite};
 }
 
+set_up::LoadWidths widths_of(const set_up::SetUpParameters& parameters, const SetUpFormat& format) {
+  return set_up::load_widths(format.viewport.columns, format.viewport.lines,
+                             static_cast<unsigned>(parameters.corner_bits()), format.span.word_bits,
+                             format.depth_bits + format.span.depth_fraction_bits);
+}
+
 }  // namespace
 
 geometry::SnapGrids span_grids(const geometry::Viewport& viewport, int fraction_bits) {
@@ -65,6 +71,7 @@ SetUpWork::SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& 
       parameters_(parameters),
       format_(format),
       linear_(parameters.linear()),
+      widths_(widths_of(parameters, format)),
       grid_(geometry::frame_grid(span_grids(format.viewport, static_cast<int>(parameters.snap_bits)), true,
                                  format.viewport)),
       near_word_(static_cast<double>(set_up::near_depth(depth_format(format)))),
@@ -190,6 +197,7 @@ bool SetUpWork::next() {
   coloured_.clear();
   load_count_ = 0;
   const OperationCounts colouring = colourer_.operations();
+  const std::uint64_t back_faces = colourer_.counts().back_faces;
   triangle_operations_ = waiting_operations_;
   waiting_operations_ = {};
   ++number_;
@@ -199,14 +207,15 @@ bool SetUpWork::next() {
   if ((inside_ >> lane & 1U) != 0) {
     triangle_operations_ += inside_cost_;
     colour(set_up::triangle_of_lane<double>(screen_, lane), object_, triangle_);
+    count_outcome(1, back_faces);
   } else {
     bool cut = false;
     const set_up::Pieces<double> pieces = pieces_of(object_, triangle_, cut);
     // What nothing is cut from costs what all such triangles do; others are computed once more, counting.
     triangle_operations_ += cut ? counted([&] { count_pieces(); }) : inside_cost_;
-    if (pieces.size == 0) ++counts_.outside;
     if (pieces.size > 1) counts_.pieces += pieces.size - 1;
     for (const auto& piece : pieces.list()) colour(piece, object_, triangle_);
+    count_outcome(pieces.size, back_faces);
   }
   triangle_operations_ += colourer_.operations() - colouring;
   if (parameters_.makes_parts()) frame_.insert(frame_.end(), coloured_.begin(), coloured_.end());
@@ -231,6 +240,18 @@ bool SetUpWork::next() {
 set_up::ColourSteps SetUpWork::colour_steps() const {
   const bool moved = parameters_.child_coverage == set_up::ChildCoverage::snapped;
   return set_up::colour_steps(frame_, moved ? parameters_.corner_bits() - static_cast<int>(parameters_.snap_bits) : 0);
+}
+
+// By all of a triangle's pieces.
+void SetUpWork::count_outcome(std::size_t pieces, std::uint64_t back_faces_before) {
+  if (pieces == 0)
+    ++counts_.outside;
+  else if (!coloured_.empty())
+    ++counts_.facing;
+  else if (colourer_.counts().back_faces > back_faces_before)
+    ++counts_.back_faces;
+  else
+    ++counts_.degenerate;
 }
 
 SetUpCounts SetUpWork::counts() const {
@@ -289,9 +310,12 @@ void SetUpWork::give_shading() {
   triangle_operations_ += shader_->set_up_cost();
 }
 
-std::uint64_t SetUpWork::words_of(const span_unit::TriangleLoad& load) const {
-  if (load.shading == nullptr) return set_up::load_words(load, linear_);
-  return set_up::depth_load_words(load) + shader_->set_up_words();
+set_up::LoadWords SetUpWork::words_of(const span_unit::TriangleLoad& load) const {
+  set_up::LoadWords words = set_up::load_words(load, linear_);
+  if (load.shading == nullptr) return words;
+  // The pixel unit's instead of colours.
+  words.colours = shader_->set_up_words();
+  return words;
 }
 
 }  // namespace rastertlm::host

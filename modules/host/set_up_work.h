@@ -14,6 +14,7 @@
 #include "modules/pixel_unit/pixel_shader.h"
 #include "modules/set_up/colour_steps.h"
 #include "modules/set_up/highlight_classifier.h"
+#include "modules/set_up/load_words.h"
 #include "modules/set_up/parameters.h"
 #include "modules/set_up/pieces.h"
 #include "modules/set_up/point_lighting.h"
@@ -31,16 +32,20 @@ struct SetUpFormat {
   set_up::SpanFormat span;
 };
 
-// What became of a frame's triangles, and what that took.
+// What became of a frame's triangles, and what that took. A triangle is whole: it faces the viewer where any of its
+// pieces is to be drawn, and has no area where none has. triangles = facing + back_faces + degenerate + outside.
 struct SetUpCounts {
   std::uint64_t triangles = 0;  // of the scene
-  std::uint64_t outside = 0;    // of the view
-  std::uint64_t pieces = 0;     // more than one a triangle, from clipping
+  std::uint64_t facing = 0;     // the viewer, or two-sided
+  std::uint64_t back_faces = 0;
+  std::uint64_t degenerate = 0;  // on the grid
+  std::uint64_t outside = 0;     // of the view
+  std::uint64_t pieces = 0;      // more than one a triangle, from clipping
   std::uint64_t loads = 0;
-  std::uint64_t words = 0;
-  std::uint64_t shaded = 0;  // of the loads: by a pixel unit
-  std::uint64_t wraps = 0;   // loads whose slopes a prestep's products cannot take
-  set_up::ColourCounts colour;
+  set_up::LoadWords words;
+  std::uint64_t shaded = 0;               // of the loads: by a pixel unit
+  std::uint64_t wraps = 0;                // loads whose slopes a prestep's products cannot take
+  set_up::ColourCounts colour;            // of pieces and of what they are split into, one by one
   set_up::ClassifiedCounts classified;    // methods of 003
   set_up::SubdivisionCounts subdivision;  // likewise
   set_up::LightingCounts lighting;
@@ -62,9 +67,10 @@ class SetUpWork {
   std::span<const span_unit::TriangleLoad> loads() const { return {room_.data(), load_count_}; }
   const geometry::OperationCounts& operations() const { return triangle_operations_; }
   // A pixel unit's are counted in.
-  std::uint64_t words_of(const span_unit::TriangleLoad& load) const;
+  set_up::LoadWords words_of(const span_unit::TriangleLoad& load) const;
   // Of a machine whose method shades pixels; else null. It knows the frame's lights from begin_frame() on.
   pixel_unit::PixelShader* shader() const { return shader_.get(); }
+  const set_up::LoadWidths& widths() const { return widths_; }
 
   // Of the frame so far.
   SetUpCounts counts() const;
@@ -82,11 +88,13 @@ class SetUpWork {
   void count_paths();
   void classify();
   void give_shading();
+  void count_outcome(std::size_t pieces, std::uint64_t back_faces_before);
 
   const ResidentScene& scene_;
   set_up::SetUpParameters parameters_;
   SetUpFormat format_;
   bool linear_;
+  set_up::LoadWidths widths_;
   geometry::FrameGrid grid_;
   double near_word_;
   double depth_range_;

@@ -272,24 +272,6 @@ void put_span_load(const ColourTriangle& triangle, const SpanFormat& format, spa
   }
 }
 
-std::uint64_t load_words(const span_unit::TriangleLoad& load, bool linear) {
-  constexpr std::uint64_t kEdge = 5;
-  constexpr std::uint64_t kLines = 1;
-  if (load.count == 0) return 0;
-  const std::uint64_t colour = linear ? 3 : 6;
-  std::uint64_t words = 1 + kLines + 2 * kEdge + span_unit::kChannels * colour + 3;  // the first line's number too
-  // Neither 2 T5 nor what a pixel adds to depth changes.
-  const std::uint64_t again = linear ? 2 : 5;
-  if (load.count == 2) words += kLines + kEdge + (load.second_goes_on ? 0 : span_unit::kChannels * again + 2);
-  return words;
-}
-
-std::uint64_t depth_load_words(const span_unit::TriangleLoad& load) {
-  if (load.count == 0) return 0;
-  const bool starts_again = load.count == 2 && !load.second_goes_on;
-  return load_words(load, true) - span_unit::kChannels * (starts_again ? 3 + 2 : 3);
-}
-
 namespace {
 
 template <class Registers>

@@ -56,12 +56,7 @@ span_unit::TriangleLoad span_load(const ColourTriangle& triangle, const SpanForm
 // The same into a load that held another triangle's.
 void put_span_load(const ColourTriangle& triangle, const SpanFormat& format, span_unit::TriangleLoad& load);
 
-// Words that the host writes for it. `linear`: the machine's second differences are wired to zero (Gouraud).
-std::uint64_t load_words(const span_unit::TriangleLoad& load, bool linear);
-// The same without colours.
-std::uint64_t depth_load_words(const span_unit::TriangleLoad& load);
-
-// What it costs the host.
+// What it costs the host; `linear`: the machine's second differences are wired to zero (Gouraud).
 struct SpanLoadCosts {
   geometry::OperationCounts triangle;  // sorting, the depth plane
   geometry::OperationCounts start;     // a half whose start edge and registers are loaded

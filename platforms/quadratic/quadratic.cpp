@@ -66,7 +66,7 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
       options_(options),
       sink_(std::move(sink)),
       timing_(video::timing(machine.video)),
-      cost_(host_of(machine), machine.span_unit.word_bits),
+      cost_(host_of(machine)),
       resident_(resident_scene(machine, scene)),
       store_(machine.frame_store, store_format(machine, scene, options.observe)) {
   check_scene();
@@ -246,15 +246,21 @@ void Quadratic::check_identities() const {
           "fragments in = kept + hidden");
   require("frame store", store.fragments_in, span_unit_->counters().pixels, "fragments in = pixels drawn");
   std::uint64_t loads = 0;
-  std::uint64_t words = 0;
+  set_up::LoadWords kinds;
   for (const ShownFrame& frame : frames_) {
-    loads += frame.set_up.counts.loads;
-    words += frame.set_up.counts.words;
+    const host::SetUpCounts& counts = frame.set_up.counts;
+    loads += counts.loads;
+    kinds += counts.words;
+    require("set-up processor", counts.triangles,
+            counts.facing + counts.back_faces + counts.degenerate + counts.outside,
+            "triangles = facing + back faces + degenerate + outside");
   }
+  const std::uint64_t words = kinds.total();
   require("span unit", loads, span_unit_->loads_received(), "loads sent = loads received");
   require("set-up processor", words, set_up_processor_->words_sent(), "words computed = words sent");
   require("span unit", words, span_unit_->words_loaded(), "words sent = words loaded");
-  require("bus", cost_.bus_words(words), links_.front().words(), "bus words of what was sent = bus words that crossed");
+  require("bus", set_up::bus_words(kinds, work_->widths(), cost_.bus_bits()), links_.front().words(),
+          "bus words of what was sent = bus words that crossed");
 }
 
 }  // namespace rastertlm::quadratic

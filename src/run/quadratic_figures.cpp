@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "modules/frame_store/memory_limits.h"
 #include "modules/span_unit/parameters.h"
@@ -84,13 +85,14 @@ std::vector<LinkFigures> link_figures(const Quadratic& platform) {
   return figures;
 }
 
-std::vector<Memory> memory_figures(const Quadratic& platform) {
-  const quadratic::Machine& m = platform.machine();
-  const auto buffers = static_cast<std::uint64_t>(m.frame_store.buffers);
-  const auto pixels = static_cast<std::uint64_t>(m.video.columns * m.video.lines);
-  std::vector<Memory> memories{{"frame store, colour", buffers, pixels, frame_store::kColourBits}};
-  if (m.frame_store.depth_test)
-    memories.push_back({"frame store, depth", 1, pixels, static_cast<std::uint64_t>(m.span_unit.depth_bits)});
+// The frame store's are what its layout puts side by side for a pixel, in every buffer.
+std::vector<Memory> memory_figures(const quadratic::Machine& m) {
+  const frame_store::MemoryLayout store = m.layout();
+  std::vector<Memory> memories;
+  for (const auto& [name, bits] :
+       {std::pair("frame store, colour", store.colour_bits), std::pair("frame store, depth", store.depth_bits),
+        std::pair("frame store, triangle numbers", store.number_bits)})
+    if (bits > 0) memories.push_back({name, store.buffers, store.columns * store.lines, bits});
   // Six registers a channel and three of depth, and the edges' and lines' in each set; a set is drawn from.
   const auto sets = static_cast<std::uint64_t>((m.span_unit.shadow_sets + 1) * m.span_unit.units);
   const bool linear = m.set_up.linear();

@@ -10,7 +10,7 @@ namespace rastertlm::run {
 
 std::vector<UnitFigures> unit_figures(const quadratic::Quadratic& platform);
 std::vector<LinkFigures> link_figures(const quadratic::Quadratic& platform);
-std::vector<Memory> memory_figures(const quadratic::Quadratic& platform);
+std::vector<Memory> memory_figures(const quadratic::Machine& m);
 std::vector<Logic> logic_figures(const quadratic::Quadratic& platform);
 
 }  // namespace rastertlm::run

@@ -36,18 +36,18 @@ FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown
   f.animation_frame = f.last_animation_frame = shown.set_up.animation_frame;
   f.first_pixel_ps = shown.first_pixel_ps;
   f.last_pixel_ps = shown.last_pixel_ps;
-  f.back_faces = colour.back_faces;
-  f.degenerate = colour.degenerate;
+  f.facing = counts.facing;
+  f.back_faces = counts.back_faces;
+  f.degenerate = counts.degenerate;
   f.outside = counts.outside;
-  f.drawn = counts.triangles - std::min(counts.triangles, colour.degenerate);
-  f.facing = f.drawn - std::min(f.drawn, colour.back_faces + counts.outside);
+  f.drawn = counts.facing + counts.back_faces + counts.outside;
   f.pieces = counts.pieces;
   f.snap_fraction_bits = snap_bits;
   f.covered_pixels = static_cast<std::uint64_t>(
       std::count_if(pixels.object.begin(), pixels.object.end(), [](std::uint32_t object) { return object != 0; }));
   for (const std::uint32_t count : pixels.coverage) f.fragments += count;
   f.host_flops = counts.operations.flops();
-  f.words_sent = counts.words;
+  f.words_sent = counts.words.total();
   constexpr double kMicrosecond = 1e-6;
   f.span = {colour.drawn,
             colour.splits,
@@ -167,7 +167,7 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
     result.budgets.push_back(std::move(b));
   result.answer = quadratic_answer(*platform, result.budgets);
   result.links = link_figures(*platform);
-  result.memories = memory_figures(*platform);
+  result.memories = memory_figures(machine);
   result.logic = logic_figures(*platform);
   result.modelled = modelled_figures(*platform, scene);
   result.warnings = quadratic_warnings(*platform, options.frames);

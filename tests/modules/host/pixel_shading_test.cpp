@@ -37,7 +37,7 @@ struct Host {
       for (const span_unit::TriangleLoad& load : work.loads()) {
         Drawn& one = drawn.emplace_back();
         one.load = load;
-        one.words = work.words_of(load);
+        one.words = work.words_of(load).total();
         const auto lines = spans.draw(load).spans;
         one.spans.assign(lines.begin(), lines.end());
         if (load.shading == nullptr) continue;

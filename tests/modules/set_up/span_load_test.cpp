@@ -243,20 +243,5 @@ TEST_F(SpanLoad, DepthErrsByHalfABitAStep) {
   }
 }
 
-TEST_F(SpanLoad, CountsItsWords) {
-  ColourTriangle t;
-  t.fraction_bits = 4;
-  const auto words = [&](std::array<geometry::SnappedPoint, 3> corners, bool linear) {
-    t.corners = corners;
-    return load_words(span_load(t, {}), linear);
-  };
-  // Level at the bottom: one half. Two halves: the left edge goes on, or the right one does.
-  EXPECT_EQ(words({{{160, 160}, {0, 480}, {320, 480}}}, false), 33U);
-  EXPECT_EQ(words({{{160, 160}, {0, 480}, {320, 320}}}, false), 33U + 6);
-  EXPECT_EQ(words({{{160, 160}, {0, 320}, {320, 480}}}, false), 33U + 6 + 17);
-  EXPECT_EQ(words({{{160, 160}, {0, 320}, {320, 480}}}, true), 24U + 6 + 8);
-  EXPECT_EQ(words({{{160, -480}, {0, -320}, {320, -160}}}, false), 0U);
-}
-
 }  // namespace
 }  // namespace rastertlm::set_up::test

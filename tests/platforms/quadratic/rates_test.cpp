@@ -156,7 +156,9 @@ TEST_P(Overlap, OfSetUpAndDrawingIsTheClosedForm) {
     computing += kClock * platform.cost().compute(set_up.operations()).count();
     for (const auto& load : set_up.loads()) {
       const std::uint64_t cycles = unit.draw(load).cycles;
-      work.push_back({computing, kClock * platform.cost().bus(set_up.words_of(load)).count(), kClock * cycles});
+      const std::uint64_t words =
+          rastertlm::set_up::bus_words(set_up.words_of(load), set_up.widths(), platform.cost().bus_bits());
+      work.push_back({computing, kClock * platform.cost().bus_transfer(words).count(), kClock * cycles});
       computing = 0;
     }
   }
