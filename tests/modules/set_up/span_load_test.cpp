@@ -158,13 +158,48 @@ TEST_F(SpanLoad, StartEdgesErrAsTheyAreKnownTo) {
 }
 
 TEST_F(SpanLoad, ErrsNoMoreThanItsFractionBitsAllow) {
-  for (const std::int64_t bits : {12, 14, 16, 18, 20, 22, 24}) {
+  for (const std::int64_t bits : {8, 10, 12, 14, 16, 18, 20, 22, 24}) {
     span_unit::SpanUnitParameters parameters;
     parameters.fraction_bits = bits;
     parameters.word_bits = bits + span_unit::kIntegerBits;
     EXPECT_LE(largest_error(parameters, random_), span_unit::fraction_bound(bits, kColumns + 2 * kLines))
         << bits << " bits";
   }
+}
+
+// Every constant is 0.49 of its last place off, all the same way: what is shown is off by as much of the bound at every
+// pixel.
+TEST_F(SpanLoad, AdversarialConstantsReachTheBound) {
+  constexpr double kOff = 0.49;
+  for (const std::int64_t bits : {8, 10, 12, 14})
+    for (const double sign : {-1.0, 1.0}) {
+      span_unit::SpanUnitParameters parameters;
+      parameters.fraction_bits = bits;
+      parameters.word_bits = bits + span_unit::kIntegerBits;
+      const double off = sign * std::ldexp(kOff, -static_cast<int>(bits));
+      ColourTriangle t;
+      t.fraction_bits = 4;
+      t.corners = {{{0, 0}, {2 * kColumns * 16, 0}, {0, 2 * kLines * 16}}};
+      // 2 T5, 2 T3, T4 are steps of steps; T2 + T5 and T1 + T3 steps. All of them are rounded to nothing, and 128
+      // stays.
+      for (auto& form : t.colour) form = {127.5 + off, off / 2, off / 2, off / 2, off, off / 2};
+      std::size_t shown = 0;
+      double largest = 0.0;
+      draw(t, parameters, [&](const span_unit::Span& span, const rastertlm::test::SpanPixels& pixels) {
+        for (std::uint32_t x = 0; x < span.count; ++x) {
+          const std::uint32_t steps = span.line + span.column + x;
+          const double given = t.colour[1].at(span.column + x, span.line);
+          const double error = std::fabs((pixels.levels[x] >> 8 & 0xFFU) - 0.5 - given);
+          const double bound = span_unit::fraction_bound(bits, steps);
+          ASSERT_LE(error, bound);
+          ASSERT_NEAR(error, kOff / 0.5 * bound, 1e-9);
+          largest = std::max(largest, error);
+          ++shown;
+        }
+      });
+      EXPECT_EQ(shown, kColumns * kLines);
+      EXPECT_GT(largest, 0.97 * span_unit::fraction_bound(bits, kColumns + kLines));
+    }
 }
 
 // Pixels left of the screen are stepped over and their rounding adds up: the bound counts them.

@@ -1,11 +1,15 @@
-// Does the report say of triangles, bus words and memories what the machine did and has?
+// Does the report say of triangles, bus words and memories what the machine did and has? And what does it do with
+// triangles that no machine likes?
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <random>
 
 #include "src/run/quadratic_figures.h"
 #include "tests/platforms/quadratic/screens.h"
+#include "tests/platforms/quadratic/sphere_frames.h"
 #include "tests/support/forked.h"
 
 namespace rastertlm::test {
@@ -108,6 +112,171 @@ TEST(Memories, AreWhatIsAccessed) {
         machine.frame_store.width_bits = static_cast<std::int64_t>(bits) - 1;
         EXPECT_EQ(machine.layout().write_words, 2U);
       }
+}
+
+struct Shown {
+  host::SetUpCounts counts;
+  frame::Frame pixels;
+};
+
+Shown shown_by(const quadratic::Machine& machine, const scene::Scene& scene) {
+  Shown shown;
+  quadratic::Quadratic platform(machine, scene, {1, true},
+                                [&](const quadratic::ShownFrame& frame, const frame::Frame& pixels) {
+                                  shown.counts = frame.set_up.counts;
+                                  shown.pixels = pixels;
+                                });
+  platform.run();
+  return shown;
+}
+
+quadratic::Machine on_256ths(std::int64_t side) {
+  quadratic::Machine machine = span_unit_alone(side, side);
+  machine.set_up.snap_bits = 8;
+  return machine;
+}
+
+std::string covered(const scene::Scene& scene) {
+  return in_child([&] {
+    const Shown shown = shown_by(on_256ths(64), scene);
+    std::string text = fmt::format("facing {}, flat {}, loads {}:", shown.counts.facing, shown.counts.colour.flat_low,
+                                   shown.counts.loads);
+    for (std::size_t pixel = 0; pixel < shown.pixels.coverage.size(); ++pixel)
+      if (shown.pixels.coverage[pixel] > 0) text += fmt::format(" {},{}", pixel % 64, pixel / 64);
+    return text;
+  });
+}
+
+// Smaller than a pixel: drawn where it holds a sample, and nowhere else; it is no zero area.
+TEST(HardTriangles, OfLessThanAPixelShowTheSampleThatTheyHold) {
+  scene::Scene scene = screen_scene(kSide);
+  add_triangle(scene, kSide, kSide, {20.25, 20.25}, {20.75, 20.25}, {20.25, 20.75});
+  EXPECT_EQ(covered(scene), "facing 1, flat 0, loads 0:");
+  add_triangle(scene, kSide, kSide, {30.75, 39.75}, {31.25, 39.75}, {30.75, 40.5});
+  EXPECT_EQ(covered(scene), "facing 2, flat 0, loads 1: 31,40");
+}
+
+// Lower than 1/64 pixel there are no slopes: in one colour, on the samples of its top edge. At 1/64 there are.
+TEST(HardTriangles, LowerThanASixtyFourthAreFlat) {
+  const auto low = [](double steps) {
+    scene::Scene scene = screen_scene(kSide);
+    add_triangle(scene, kSide, kSide, {10, 20}, {14, 20}, {12, 20 + steps / 256});
+    return covered(scene);
+  };
+  EXPECT_EQ(low(1), "facing 1, flat 1, loads 1: 10,20 11,20 12,20 13,20");
+  EXPECT_EQ(low(3), "facing 1, flat 1, loads 1: 10,20 11,20 12,20 13,20");
+  EXPECT_EQ(low(4), "facing 1, flat 0, loads 1: 10,20 11,20 12,20 13,20");
+}
+
+// Where every triangle is too far off, all are split to the limit, and those there are counted.
+TEST(HardTriangles, AreSplitToTheLimitAndCountedThere) {
+  scene::Scene scene = screen_scene(kSide);
+  add_triangle(scene, kSide, kSide, {5, 5}, {60, 8}, {9, 57});
+  scene.objects[0].mesh.normals = {glm::normalize(glm::dvec3(-1, 1, 1)), glm::normalize(glm::dvec3(1, 1, 1)),
+                                   glm::normalize(glm::dvec3(0, -1, 1))};
+  for (const std::int64_t limit : {0, 1, 3}) {
+    const std::string counted = in_child([&] {
+      quadratic::Machine machine = on_256ths(64);
+      machine.set_up.method = ShadingMethod::quadratic_adaptive;
+      machine.set_up.test_threshold_levels = 0.0;
+      machine.set_up.test_depth_limit = limit;
+      const set_up::ColourCounts counts = shown_by(machine, scene).counts.colour;
+      return fmt::format("{} split, {} at the limit, {} drawn", counts.splits, counts.at_limit, counts.drawn);
+    });
+    const std::int64_t leaves = std::int64_t{1} << 2 * limit;
+    EXPECT_EQ(counted, fmt::format("{} split, {} at the limit, {} drawn", (leaves - 1) / 3, leaves, leaves));
+  }
+}
+
+struct GridPoint {
+  std::int64_t x, y;
+};
+
+// Whether a sample lies within a triangle, in steps of the grid: exactly. On an edge it belongs to the triangle to the
+// right of it, or, where it is level, below.
+bool holds(std::array<GridPoint, 3> corners, GridPoint sample) {
+  const auto cross = [](const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+    return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+  };
+  if (cross(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
+  for (std::size_t i = 0; i < 3; ++i) {  // clockwise as seen, y down: inside is to the right of each edge
+    const GridPoint &a = corners[i], &b = corners[(i + 1) % 3];
+    const std::int64_t side = cross(a, b, sample);
+    const bool left_or_top = b.y < a.y || (b.y == a.y && b.x > a.x);
+    if (side < 0 || (side == 0 && !left_or_top)) return false;
+  }
+  return true;
+}
+
+// 2,000 pixels long, and less than 2/1000 wide: along diagonals through the samples, a step of the grid off.
+TEST(HardTriangles, SliversShowExactlyTheSamplesThatTheyHold) {
+  constexpr std::int64_t kOne = 256;
+  constexpr std::int64_t kColumns = 512;
+  std::mt19937_64 random(5);
+  std::vector<std::array<GridPoint, 3>> slivers;
+  for (int i = 0; i < 40; ++i) {
+    const auto step = [&] { return static_cast<std::int64_t>(random() % 3) - 1; };
+    const auto off = [&] { return static_cast<std::int64_t>(random() % 30) * kOne; };
+    const std::int64_t down = i % 2 == 0 ? 1 : -1;
+    const std::int64_t left = -490 * kOne + off();
+    const std::int64_t top = (i % 2 == 0 ? -490 : 1000) * kOne + down * off();
+    const std::int64_t half = 740 * kOne;
+    slivers.push_back({GridPoint{left, top}, GridPoint{left + half + step(), top + down * half},
+                       GridPoint{left + 2 * half, top + down * (2 * half + 1)}});
+  }
+  scene::Scene scene = screen_scene(kColumns);
+  for (const auto& [a, b, c] : slivers) {
+    const auto pixels = [](const GridPoint& p) {
+      return ScreenPoint{static_cast<double>(p.x) / kOne, static_cast<double>(p.y) / kOne};
+    };
+    add_triangle(scene, kColumns, kColumns, pixels(a), pixels(b), pixels(c));
+  }
+  const Shown shown = shown_by(on_256ths(kColumns), scene);
+  EXPECT_EQ(shown.counts.facing, slivers.size());
+  std::size_t samples = 0;
+  for (std::int64_t line = 0; line < kColumns; ++line)
+    for (std::int64_t column = 0; column < kColumns; ++column) {
+      const auto count = static_cast<std::uint32_t>(std::count_if(slivers.begin(), slivers.end(), [&](const auto& s) {
+        return holds(s, {column * kOne, line * kOne});
+      }));
+      ASSERT_EQ(shown.pixels.coverage[static_cast<std::size_t>(line * kColumns + column)], count)
+          << column << ", " << line;
+      samples += count;
+    }
+  EXPECT_GT(samples, 1000U);
+}
+
+// Which pixels are covered how often, and by which triangle, of a sphere that is split where its highlight is.
+std::string coverage_of(const std::vector<std::string>& settings) {
+  return in_child([&] {
+    const run::Inputs inputs = sphere_inputs("168", settings);
+    const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
+    const Shown shown = shown_by(machine, *inputs.content->scene);
+    std::string text = shown.counts.colour.splits > 0 ? "split" : "whole";
+    for (std::size_t pixel = 0; pixel < shown.pixels.object.size(); ++pixel)
+      text += fmt::format(" {}*{}", shown.pixels.coverage[pixel], shown.pixels.object[pixel]);
+    return text;
+  });
+}
+
+// Of a closed mesh's front every pixel is covered once; split triangles leave neither hole nor double pixel. Corners of
+// parts that are moved to a grid of whole pixels would.
+TEST(SplitTriangles, CoverWhatTheirParentsDo) {
+  const std::vector<std::string> usual{"video.columns=256", "video.lines=256", "material[0].exponent=50",
+                                       "set_up.snap_bits=0"};
+  const auto with = [&](std::vector<std::string> settings) {
+    settings.insert(settings.begin(), usual.begin(), usual.end());
+    return coverage_of(settings);
+  };
+  const std::string whole = with({"set_up.method=quadratic"});
+  const std::string split = with({"set_up.method=quadratic_adaptive", "highlight_test.threshold_levels=1.0"});
+  const std::string moved =
+      with({"set_up.method=quadratic_adaptive", "highlight_test.threshold_levels=1.0", "subdivision.coverage=snapped"});
+  ASSERT_TRUE(whole.starts_with("whole"));
+  ASSERT_TRUE(split.starts_with("split"));
+  EXPECT_EQ(whole.find(" 2*"), std::string::npos);
+  EXPECT_TRUE(whole.substr(5) == split.substr(5));
+  EXPECT_FALSE(whole.substr(5) == moved.substr(5));
 }
 
 }  // namespace
