@@ -18,7 +18,7 @@ bool keeps_up(const FrameStoreParameters& parameters, const MemoryLayout& layout
 
 FrameStoreModule::FrameStoreModule(const sc_core::sc_module_name& name, const FrameStoreParameters& parameters,
                                    FrameStore& store, const MemoryLayout& layout, const video::Timing& timing,
-                                   std::uint64_t pixel_ps, stream::Link& link)
+                                   std::uint64_t pixel_ps)
     : sc_module(name),
       in("in"),
       out("out"),
@@ -29,7 +29,6 @@ FrameStoreModule::FrameStoreModule(const sc_core::sc_module_name& name, const Fr
       schedule_(parameters.access_ps(), parameters.scan_out == ScanOut::shared ? std::optional(timing) : std::nullopt,
                 layout.lines, layout.line_accesses()),
       clock_(Clock::from_period_ns("memory access", parameters.access_ns)),
-      link_(link),
       quick_(keeps_up(parameters, layout, pixel_ps)) {
   rgb_.resize(layout.columns);
   if (parameters.changes_while_shown())
@@ -175,7 +174,6 @@ void FrameStoreModule::send_read(const ScreenReader::Line& line, const frame::Rg
   payload_.line = line.number;
   payload_.rgb = &levels;
   payload_.fragments = &fragments_;
-  link_.record(levels.columns(), Cycles(levels.columns()));
   const std::uint64_t now = stream::picoseconds_now();
   sc_core::sc_time delay = stream::to_time(std::max(line.first_pixel_ps, now) - now);
   out->b_transport(payload_, delay);
@@ -190,7 +188,6 @@ void FrameStoreModule::scan_out(std::uint64_t frame, std::uint64_t shown_ps) {
   for (std::size_t line = 0; line < layout_.lines; ++line) {
     store_.scan_out(static_cast<std::uint32_t>(line), rgb_);
     payload_.line = line;
-    link_.record(rgb_.columns(), Cycles(rgb_.columns()));
     sc_core::sc_time delay = stream::to_time(shown_ps + timing_.clock.picoseconds(timing_.first_pixel(line)) - now);
     out->b_transport(payload_, delay);
   }

@@ -13,7 +13,6 @@
 #include "modules/frame_store/screen_reader.h"
 #include "modules/frame_store/span_payload.h"
 #include "modules/stream/line_payload.h"
-#include "modules/stream/link.h"
 #include "modules/stream/occupancy.h"
 #include "modules/video/timing.h"
 
@@ -25,9 +24,9 @@ class FrameStoreModule : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<FrameStoreModule, stream::kNoBusWidth, stream::RgbProtocol> out;
 
   // `pixel_ps`: the span unit's time a pixel; where the memory takes no longer for any span, spans are not scheduled
-  // one by one. Of several units that send spans of their own, divided by their number. `link`: to the screen.
+  // one by one. Of several units that send spans of their own, divided by their number.
   FrameStoreModule(const sc_core::sc_module_name& name, const FrameStoreParameters& parameters, FrameStore& store,
-                   const MemoryLayout& layout, const video::Timing& timing, std::uint64_t pixel_ps, stream::Link& link);
+                   const MemoryLayout& layout, const video::Timing& timing, std::uint64_t pixel_ps);
 
   // Memory accesses of spans and clears so far, and of lines that were due to be read through the same port before
   // then; of the busiest bank.
@@ -73,7 +72,6 @@ class FrameStoreModule : public sc_core::sc_module {
   video::Timing timing_;
   MemorySchedule schedule_;
   Clock clock_;  // an access a cycle
-  stream::Link& link_;
   bool quick_;
   std::vector<std::uint64_t> won_;  // of a span, a bit a pixel; empty where nobody asks
   frame::RgbLine rgb_;

@@ -225,8 +225,8 @@ bool SetUpWork::next() {
     span_unit::TriangleLoad& load = room_[load_count_];
     set_up::put_span_load(triangle, format_.span, load);
     triangle_operations_ += set_up::cost_of(load, load.shading != nullptr ? depth_costs_ : load_costs_);
-    counts_.words += words_of(load);
     if (load.count == 0) continue;
+    counts_.words += words_of(load);
     ++load_count_;
     counts_.shaded += load.shading != nullptr ? 1 : 0;
     counts_.wraps += load.wraps ? 1 : 0;

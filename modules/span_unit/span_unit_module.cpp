@@ -143,6 +143,24 @@ void SpanUnitModule::draw_from(std::uint64_t cycle, const TriangleLoad& load) {
   free_ = cycle;
 }
 
+// Cycles in which pixels cross; where several units send at once, once.
+Cycles SpanUnitModule::crossing(std::uint64_t begin_ps, const DrawnLines& drawn) {
+  const auto units = static_cast<std::uint64_t>(parameters_.units);
+  if (units == 1) return Cycles(drawn.pixels);
+  if (!dealt_) {
+    std::uint64_t cycles = 0;
+    for (const Span& span : drawn.spans) cycles += (span.count + units - 1) / units;
+    return Cycles(cycles);
+  }
+  const auto pixel = static_cast<std::uint64_t>(parameters_.pixel_cycles);
+  const std::uint64_t begin = clock_.cycles_at(begin_ps).count();
+  const std::uint64_t end = begin + drawn.pixels * pixel;
+  const std::uint64_t alone = std::max(begin, sent_until_);
+  if (end <= alone) return Cycles(0);
+  sent_until_ = end;
+  return Cycles((end - alone + pixel - 1) / pixel);
+}
+
 // Returns when the memory has taken the spans.
 std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, Cycles taken, const DrawnLines& drawn,
                                     const TriangleLoad& load) {
@@ -152,7 +170,9 @@ std::uint64_t SpanUnitModule::store(std::uint64_t begin_ps, Cycles taken, const 
   payload_.shading = load.shading;
   payload_.object = load.object;
   payload_.material = load.material;
-  link_.record(drawn.pixels, Cycles(drawn.pixels), begin_ps, begin_ps + clock_.picoseconds(taken));
+  pixels_sent_ += drawn.pixels;
+  const std::uint64_t words = pixels_sent_ / static_cast<std::uint64_t>(parameters_.units) - link_.words();
+  link_.record(words, crossing(begin_ps, drawn), begin_ps, begin_ps + clock_.picoseconds(taken));
   const std::uint64_t now = stream::picoseconds_now();
   sc_core::sc_time until = stream::to_time(begin_ps - now);
   out->b_transport(payload_, until);

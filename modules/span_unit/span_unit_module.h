@@ -24,7 +24,7 @@ class SpanUnitModule : public sc_core::sc_module {
   tlm_utils::simple_initiator_socket<SpanUnitModule, stream::kNoBusWidth, frame_store::SpanProtocol> out;
 
   // A board of one unit, of several that share the columns of every triangle, or of several that triangles are dealt
-  // to. `link`: to the frame store, a pixel a cycle of the units' clock.
+  // to. `link`: to the frame store, a pixel of each unit a cycle of their clock; counted to the last whole word.
   SpanUnitModule(const sc_core::sc_module_name& name, const SpanUnitParameters& parameters, std::uint32_t columns,
                  std::uint32_t lines, stream::Link& link);
 
@@ -53,6 +53,7 @@ class SpanUnitModule : public sc_core::sc_module {
   void tell(stream::Activity activity, std::uint64_t begin, std::uint64_t end) const;
   std::uint64_t set_free_ps() const;
   void draw_from(std::uint64_t cycle, const TriangleLoad& load);
+  Cycles crossing(std::uint64_t begin_ps, const DrawnLines& drawn);
   std::uint64_t store(std::uint64_t begin_ps, Cycles taken, const DrawnLines& drawn, const TriangleLoad& load);
 
   SpanUnitParameters parameters_;
@@ -68,6 +69,8 @@ class SpanUnitModule : public sc_core::sc_module {
   std::uint64_t loads_received_ = 0;
   std::uint64_t words_loaded_ = 0;
   std::uint64_t blocked_by_buffer_ = 0;
+  std::uint64_t pixels_sent_ = 0;
+  std::uint64_t sent_until_ = 0;  // cycle; of units that send by themselves
   stream::Occupancy occupancy_;
   Watcher watcher_;
 };

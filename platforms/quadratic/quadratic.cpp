@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "modules/stream/failure.h"
@@ -72,12 +73,13 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
   check_scene();
   work_ = std::make_unique<host::SetUpWork>(resident_, machine.set_up, machine.set_up_format(), surfaces_of(scene),
                                             rules_of(scene));
-  const unsigned pixel_bits = static_cast<unsigned>(machine.span_unit.depth_bits) + frame_store::kColourBits;
+  const auto pixels_bits =
+      static_cast<unsigned>(machine.layout().pixel_bits()) * static_cast<unsigned>(machine.span_unit.units);
   const Clock bus_clock =
       Clock::slower("bus words", cost_.clock(), static_cast<std::uint64_t>(machine.host.bus_cycles_per_word));
   stream::Link& bus = links_.emplace_back("bus", static_cast<unsigned>(machine.host.bus_bits), bus_clock);
-  stream::Link& pixels = links_.emplace_back("span unit to frame store", pixel_bits, machine.span_unit.clock());
-  stream::Link& screen = links_.emplace_back("frame store to video", frame_store::kColourBits, timing_.clock);
+  stream::Link& pixels = links_.emplace_back("span unit to frame store", pixels_bits, machine.span_unit.clock());
+  links_.emplace_back("frame store to video", frame_store::kColourBits, timing_.clock);
   set_up_processor_ = std::make_unique<host::SetUpProcessorModule>(
       "set_up_processor", *work_, cost_,
       host::SetUpProcessorModule::Timeline{resident_.pose, viewer_at_eye(scene), options.frames,
@@ -93,7 +95,7 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
       machine.span_unit.clock().picoseconds(Cycles(static_cast<std::uint64_t>(machine.span_unit.pixel_cycles)));
   const auto units = static_cast<std::uint64_t>(machine.span_unit.units);
   frame_store_ = std::make_unique<frame_store::FrameStoreModule>("frame_store", machine.frame_store, store_,
-                                                                 machine.layout(), timing_, pixel_ps / units, screen);
+                                                                 machine.layout(), timing_, pixel_ps / units);
   video_output_ = std::make_unique<video::VideoOutputModule>(
       "video_output",
       video::FrameAssembly::Format{static_cast<std::size_t>(machine.video.columns),
@@ -198,6 +200,7 @@ void Quadratic::run() {
   }
   frame_store_->finish();
   hand_on_screens();
+  note_screens();
   check_identities();
 }
 
@@ -223,9 +226,17 @@ void Quadratic::watch(const Watchers& watchers) {
   links_.at(1).watch(watchers.pixels);
 }
 
+// The display is sent pixels whatever is drawn, from when there is a picture on.
+void Quadratic::note_screens() {
+  const auto lines = static_cast<std::uint64_t>(machine_.video.lines);
+  const auto sent_by = [&](std::uint64_t ps) { return timing_.pixels_sent(timing_.clock.cycles_at(ps), lines); };
+  const std::uint64_t pixels = sent_by(end_ps()) - sent_by(frames_.front().set_up.shown_ps);
+  links_.back().record(pixels, Cycles(pixels));
+}
+
 double Quadratic::frames_per_second() const {
   constexpr double kPicosecond = 1e-12;
-  if (frames_.size() < 2) return 0.0;
+  if (frames_.size() < 2) throw std::logic_error("a rate takes two frames");
   const std::uint64_t passed = frames_.back().set_up.shown_ps - frames_.front().set_up.shown_ps;
   return static_cast<double>(frames_.size() - 1) / (static_cast<double>(passed) * kPicosecond);
 }
@@ -261,6 +272,11 @@ void Quadratic::check_identities() const {
   require("span unit", words, span_unit_->words_loaded(), "words sent = words loaded");
   require("bus", set_up::bus_words(kinds, work_->widths(), cost_.bus_bits()), links_.front().words(),
           "bus words of what was sent = bus words that crossed");
+  for (const stream::Link& link : links_) {
+    const std::uint64_t cycles = link.clock().cycles_at(end_ps()).count();
+    if (link.words() > cycles)
+      throw ModelError(link.name(), cycles, fmt::format("{} words crossed in {} cycles", link.words(), cycles));
+  }
 }
 
 }  // namespace rastertlm::quadratic

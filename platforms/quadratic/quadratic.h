@@ -81,7 +81,8 @@ class Quadratic {
   std::vector<ShownFrame> const& frames() const { return frames_; }
   // When the last frame is shown: what was simulated, ends there.
   std::uint64_t end_ps() const { return frames_.back().set_up.shown_ps; }
-  // Frames completed a second: of the frames after the first, where there are three or more; else of what bounds them.
+  // Frames completed a second: the intervals between the run's frames, from the first to the last that was shown.
+  // Throws std::logic_error where there is but one frame, which has none.
   double frames_per_second() const;
 
  private:
@@ -93,6 +94,7 @@ class Quadratic {
   void hand_on_screens();
   void note_drawn(const host::SetUpFrame& frame);
   FrameWork work_since_last();
+  void note_screens();
   void check_identities() const;
 
   const Machine& machine_;

@@ -33,6 +33,17 @@ double fraction_bound(const quadratic::Machine& m) {
                            : span_unit::fraction_bound(m.span_unit.fraction_bits, steps);
 }
 
+const char* what_bound_holds(span_unit::StartEdge start_edge) {
+  switch (start_edge) {
+    case span_unit::StartEdge::lattice:
+      return "proved, attained";
+    case span_unit::StartEdge::prestep:
+      return "of rounded registers, proved; what the prestep's fraction and products are rounded by comes on top";
+    default:
+      return "of rounded registers, proved; up to a step of colour from a pixel to the next comes on top";
+  }
+}
+
 // Of the slowest frame of the run, unit by unit.
 FrameLoad largest_load(const Quadratic& platform) {
   FrameLoad most;
@@ -173,13 +184,11 @@ std::vector<Budget> quadratic_budgets(const Quadratic& platform) {
   budgets.push_back(budget("span_unit.screen", 1e-3 * pixel_ns(m) * screen, kMicroseconds / m.video.refresh_hz, "us",
                            "000/001, section 7: the whole screen once, a pixel a clock",
                            "span_unit.clock_ns, span_unit.pixel_cycles, span_unit.units, video.*", false));
-  budgets.push_back(budget("span_unit.fraction", fraction_bound(m), 0.5, "levels",
-                           m.set_up.linear()
-                               ? "2^-(bits + 1) (k + 1), k the steps from the left of the screen across it "
-                                 "(proved, attained)"
-                               : "2^-(bits + 1) (k^2 + k + 2) / 2, k the steps from the left of the screen "
-                                 "across it (proved, attained)",
-                           "span_unit.fraction_bits, set_up.method, video.*", false));
+  budgets.push_back(
+      budget("span_unit.fraction", fraction_bound(m), 0.5, "levels",
+             fmt::format("2^-(bits + 1) {}, k the steps from the left of the screen across it ({})",
+                         m.set_up.linear() ? "(k + 1)" : "(k^2 + k + 2) / 2", what_bound_holds(m.span_unit.start_edge)),
+             "span_unit.fraction_bits, set_up.method, video.*", false));
   return budgets;
 }
 
@@ -223,11 +232,12 @@ std::vector<std::string> quadratic_warnings(const Quadratic& platform, std::uint
     warnings.push_back(
         fmt::format("{} fraction bits may be off by {:.3g} levels across the screen (span_unit.fraction_bits)",
                     m.span_unit.fraction_bits, bound));
-  host::SetUpCounts all;
-  for (const quadratic::ShownFrame& frame : platform.frames()) {
-    all.colour += frame.set_up.counts.colour;
-    all.lighting += frame.set_up.counts.lighting;
-    all.wraps += frame.set_up.counts.wraps;
+  host::SetUpCounts all;  // of what is displayed, not of frames beside it that tell the rate
+  for (std::size_t frame = 0; frame < std::min<std::size_t>(displayed, platform.frames().size()); ++frame) {
+    const host::SetUpCounts& counts = platform.frames()[frame].set_up.counts;
+    all.colour += counts.colour;
+    all.lighting += counts.lighting;
+    all.wraps += counts.wraps;
   }
   const auto tell = [&](std::uint64_t count, const char* what) {
     if (count > 0) warnings.push_back(fmt::format("{} {}", count, what));

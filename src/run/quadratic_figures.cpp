@@ -34,9 +34,9 @@ stream::Occupancy scan_out_occupancy(const Quadratic& platform) {
   const auto lines = static_cast<std::uint64_t>(platform.machine().video.lines);
   stream::Occupancy screen;
   screen.cycles = timing.clock.cycles_at(platform.end_ps()).count();
-  screen.starved = timing.pixels_sent(timing.clock.cycles_at(platform.frames().front().set_up.shown_ps), lines);
   const std::uint64_t sent = timing.pixels_sent(Cycles(screen.cycles), lines);
-  screen.busy = sent - screen.starved;
+  screen.busy = platform.links().back().words();
+  screen.starved = sent - screen.busy;
   screen.idle = screen.cycles - sent;
   return screen;
 }

@@ -60,12 +60,8 @@ TEST_F(QuadraticWarningTest, TrianglesThatAreSplitNoFurther) {
 }
 // Six points, three channels each.
 TEST_F(QuadraticWarningTest, ColoursBeyondTheLevels) {
-  EXPECT_THAT(report_of("", usual_, "1000.0"), HasSubstr("18 colours at points are beyond the levels and clamped"));
+  EXPECT_THAT(report_of("", usual_, "100.0"), HasSubstr("18 colours at points are beyond the levels and clamped"));
 }
-TEST_F(QuadraticWarningTest, ColoursThatAreNoNumbers) {
-  EXPECT_THAT(report_of("", usual_, "1e308"), HasSubstr("18 colours at points are no numbers and taken as black"));
-}
-
 // 10^6 pixels long and one high. From -64 to 127, where it is cut, it lies between lines 30.3 and 31.3 to less than a
 // 1000th: the samples of line 31.
 TEST_F(QuadraticWarningTest, ASliverCoversItsLine) {

@@ -47,7 +47,6 @@ struct Machine : sc_core::sc_module {
   FrameStoreParameters parameters;
   video::Timing timing = small_screen();
   FrameStore store;
-  stream::Link link{"screen", kColourBits, timing.clock};
   FrameStoreModule module;
 
   Machine(const sc_core::sc_module_name& name, const FrameStoreParameters& given, std::uint64_t pixel_ps = 0)
@@ -57,7 +56,7 @@ struct Machine : sc_core::sc_module {
         parameters(given),
         store(parameters, {.columns = kColumns, .lines = kLines, .background = {7, 7, 7}}),
         module("frame_store", parameters, store, MemoryLayout::of(parameters, kColumns, kLines, 24, false), timing,
-               pixel_ps, link) {
+               pixel_ps) {
     screen.register_b_transport(this, &Machine::receive);
     spans.bind(module.in);
     module.out.bind(screen);
@@ -220,7 +219,6 @@ TEST(FrameStoreModule, SendsTheLinesOfTheFrameThatIsShown) {
       EXPECT_EQ(m.lines[line].levels[i], drawn ? (i == 57 ? 200 : 0) : 7) << "line " << line << ", level " << i;
     }
   }
-  EXPECT_EQ(m.link.words(), kColumns * kLines);
 }
 
 // A line of the screen goes first from the instant at which it begins; an access that began before ends first.

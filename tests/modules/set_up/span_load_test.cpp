@@ -192,13 +192,13 @@ TEST_F(SpanLoad, AdversarialConstantsReachTheBound) {
           const double error = std::fabs((pixels.levels[x] >> 8 & 0xFFU) - 0.5 - given);
           const double bound = span_unit::fraction_bound(bits, steps);
           ASSERT_LE(error, bound);
-          ASSERT_NEAR(error, kOff / 0.5 * bound, 1e-9);
+          ASSERT_NEAR(error, 2 * kOff * bound, 1e-9);
           largest = std::max(largest, error);
           ++shown;
         }
       });
       EXPECT_EQ(shown, kColumns * kLines);
-      EXPECT_GT(largest, 0.97 * span_unit::fraction_bound(bits, kColumns + kLines));
+      EXPECT_NEAR(largest, 2 * kOff * span_unit::fraction_bound(bits, kColumns - 1 + kLines - 1), 1e-9);
     }
 }
 

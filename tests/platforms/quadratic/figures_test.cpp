@@ -1,5 +1,5 @@
-// Does the report say of triangles, bus words and memories what the machine did and has? And what does it do with
-// triangles that no machine likes?
+// Does the report say of triangles, bus words, memories and links what the machine did and has? And what does it do
+// with triangles that no machine likes?
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -114,6 +114,42 @@ TEST(Memories, AreWhatIsAccessed) {
       }
 }
 
+// Bytes that crossed each link and its width; and where they are more than it carries.
+std::string links_of(const quadratic::Machine& machine, const scene::Scene& scene, std::uint64_t frames) {
+  return in_child([&] {
+    quadratic::Quadratic platform(machine, scene, {frames, false}, {});
+    platform.run();
+    std::string all;
+    for (const run::LinkFigures& link : run::link_figures(platform)) {
+      all += fmt::format("{} bytes by {} bits; ", link.bytes, link.bits);
+      if (link.utilisation > 1.0 || link.active_bytes_per_s > link.peak_bytes_per_s * (1 + 1e-9))
+        all += fmt::format("{} is too much; ", link.utilisation);
+    }
+    return all;
+  });
+}
+
+// Many units, whose pixels cross side by side, and frames that are whole long before the screen has shown one: 32
+// strips of two triangles with 33 words, 4,096 pixels, four times. One unit draws for 0.8 ms, in which two of 64 lines
+// of a screen of 20 ms pass; more of them are done before its first line.
+TEST(Links, CarryNoMoreThanTheyCan) {
+  scene::Scene scene = screen_scene(kSide);
+  for (int strip = 0; strip < 32; ++strip) add_rectangle(scene, kSide, kSide, 2 * strip, 2 * strip + 2);
+  quadratic::Machine machine = span_unit_alone(64, 64);
+  const std::string bus = fmt::format("{} bytes by 32 bits; ", 4 * 64 * 33 * 4);
+  EXPECT_EQ(links_of(machine, scene, 4), bus + fmt::format("{} bytes by 48 bits; ", 4 * 4096 * 6) +
+                                             fmt::format("{} bytes by 24 bits; ", 2 * 64 * 3));
+  machine.span_unit.units = 64;
+  EXPECT_EQ(links_of(machine, scene, 4),
+            bus + fmt::format("{} bytes by {} bits; 0 bytes by 24 bits; ", 4 * 4096 * 6, 64 * 48));
+  machine.span_unit.share = span_unit::Share::triangles;
+  EXPECT_EQ(links_of(machine, scene, 4),
+            bus + fmt::format("{} bytes by {} bits; 0 bytes by 24 bits; ", 4 * 4096 * 9, 64 * 72));
+  machine.span_unit.pixel_cycles = 3;
+  EXPECT_EQ(links_of(machine, scene, 4),
+            bus + fmt::format("{} bytes by {} bits; 0 bytes by 24 bits; ", 4 * 4096 * 9, 64 * 72));
+}
+
 struct Shown {
   host::SetUpCounts counts;
   frame::Frame pixels;
@@ -133,6 +169,7 @@ Shown shown_by(const quadratic::Machine& machine, const scene::Scene& scene) {
 quadratic::Machine on_256ths(std::int64_t side) {
   quadratic::Machine machine = span_unit_alone(side, side);
   machine.set_up.snap_bits = 8;
+  machine.frame_store.swap = frame_store::Swap::retrace;  // what is seen is whole
   return machine;
 }
 

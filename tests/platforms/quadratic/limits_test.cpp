@@ -191,6 +191,7 @@ TEST(Units, SayWhereTheirCyclesWent) {
   EXPECT_EQ(units["bus"].blocked, units["set-up processor"].blocked);
   EXPECT_EQ(units["scan-out"].busy, 2U * 128 * 128);  // of three screens the first had nothing to show
   EXPECT_EQ(units["scan-out"].starved, 1U * 128 * 128);
+  EXPECT_EQ(platform.links().back().bytes(), 2U * 128 * 128 * 3);
   EXPECT_EQ(platform.span_unit().words_loaded(), platform.set_up_processor().words_sent());
 }
 
