@@ -312,7 +312,7 @@ void SetUpWork::give_shading() {
 
 set_up::LoadWords SetUpWork::words_of(const span_unit::TriangleLoad& load) const {
   set_up::LoadWords words = set_up::load_words(load, linear_);
-  if (load.shading == nullptr) return words;
+  if (load.shading == nullptr || load.count == 0) return words;
   // The pixel unit's instead of colours.
   words.colours = shader_->set_up_words();
   return words;

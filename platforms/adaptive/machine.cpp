@@ -14,14 +14,11 @@ void Machine::declare(parameter::Table& table) {
                {.unit = "", .description = "Which kind of machine this is.", .moves = "nothing", .exempt = true});
   set_up.declare_adaptive(table);
   declare_units(table);
+  pixel_unit.declare(table);
 }
 
 void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
   set_up.check_method("adaptive", file, diagnostics);
-  if (set_up.method == ShadingMethod::gouraud_phong || shades_pixels(set_up.method))
-    diagnostics.add({file, 0, "set_up.method",
-                     "pixels are not shaded one by one on this machine yet; accepted: gouraud, pseudo_phong, "
-                     "regular_subdivision, highlight_subdivision"});
   check_units(diagnostics, file);
 }
 

@@ -111,8 +111,8 @@ Quadratic::Quadratic(const Machine& machine, const scene::Scene& scene, const Op
 // What shades pixels stands between the span unit and the store.
 void Quadratic::bind_pixels() {
   if (work_->shader() == nullptr) return span_unit_->out.bind(frame_store_->in);
-  stream::Link& shaded =
-      links_.emplace_back("pixel unit to frame store", links_.at(1).bits(), machine_.pixel_unit.clock());
+  stream::Link& shaded = links_.emplace_back(
+      "pixel unit to frame store", static_cast<unsigned>(machine_.layout().pixel_bits()), machine_.pixel_unit.clock());
   pixel_unit_ =
       std::make_unique<pixel_unit::PixelUnitModule>("pixel_unit", machine_.pixel_unit, *work_->shader(), shaded);
   span_unit_->out.bind(pixel_unit_->in);
@@ -180,6 +180,10 @@ FrameWork Quadratic::work_since_last() {
   const std::uint64_t waiting = span_unit_->memory_cycles();
   work.waiting_cycles = (waiting - waiting_before_) / units.size();
   waiting_before_ = waiting;
+  if (pixel_unit_) {
+    work.shading_cycles = pixel_unit_->occupancy().busy - shading_before_;
+    shading_before_ = pixel_unit_->occupancy().busy;
+  }
   work.accesses = frame_store_->drawing_accesses() - accesses_before_;
   accesses_before_ = frame_store_->drawing_accesses();
   return work;
@@ -222,8 +226,8 @@ void Quadratic::watch(const Watchers& watchers) {
   set_up_processor_->watch(watchers.set_up_processor);
   span_unit_->watch(watchers.span_units);
   frame_store_->watch(watchers.memory);
-  links_.at(0).watch(watchers.bus);
-  links_.at(1).watch(watchers.pixels);
+  links_.at(kBusLink).watch(watchers.bus);
+  links_.at(kPixelLink).watch(watchers.pixels);
 }
 
 // The display is sent pixels whatever is drawn, from when there is a picture on.
@@ -231,7 +235,7 @@ void Quadratic::note_screens() {
   const auto lines = static_cast<std::uint64_t>(machine_.video.lines);
   const auto sent_by = [&](std::uint64_t ps) { return timing_.pixels_sent(timing_.clock.cycles_at(ps), lines); };
   const std::uint64_t pixels = sent_by(end_ps()) - sent_by(frames_.front().set_up.shown_ps);
-  links_.back().record(pixels, Cycles(pixels));
+  links_.at(kScreenLink).record(pixels, Cycles(pixels));
 }
 
 double Quadratic::frames_per_second() const {

@@ -29,7 +29,8 @@ struct Options {
 // What drawing a frame took.
 struct FrameWork {
   std::uint64_t span_cycles = 0;     // of the busiest span unit, in its clock: loads, lines, pixels
-  std::uint64_t waiting_cycles = 0;  // of a span unit for the memory, the mean of all
+  std::uint64_t waiting_cycles = 0;  // of a span unit for the memory, or for a pixel unit before it; the mean of all
+  std::uint64_t shading_cycles = 0;  // of a pixel unit, in its clock: loads, lines, pixels
   std::uint64_t accesses = 0;        // of the memory's busiest bank, for spans
 };
 
@@ -77,6 +78,8 @@ class Quadratic {
   const pixel_unit::PixelUnitModule* pixel_unit() const { return pixel_unit_.get(); }
   const frame_store::FrameStore& store() const { return store_; }
   const frame_store::FrameStoreModule& frame_store() const { return *frame_store_; }
+  // In this order; then a pixel unit's.
+  static constexpr std::size_t kBusLink = 0, kPixelLink = 1, kScreenLink = 2;
   const std::deque<stream::Link>& links() const { return links_; }
   std::vector<ShownFrame> const& frames() const { return frames_; }
   // When the last frame is shown: what was simulated, ends there.
@@ -121,6 +124,7 @@ class Quadratic {
   std::vector<std::uint64_t> busy_before_;  // of each span unit
   std::uint64_t waiting_before_ = 0;
   std::uint64_t accesses_before_ = 0;
+  std::uint64_t shading_before_ = 0;
   // Of pictures that change while they are shown: those that have been shown, and not been handed on.
   std::vector<std::pair<std::uint64_t, frame::Frame>> screens_;
   std::uint64_t screens_shown_ = 0;

@@ -35,6 +35,11 @@ frame_store::MemoryLimits memory_limits(const Quadratic& platform) {
   return {platform.machine().frame_store, platform.machine().layout(), platform.timing()};
 }
 
+const char* slower_of_drawing(const FrameLoad& load) {
+  if (load.memory_is_slower()) return "frame store";
+  return load.pixel_unit_is_slower() ? "pixel unit" : "span unit";
+}
+
 FrameLoad frame_load(const Quadratic& platform, const quadratic::ShownFrame& frame) {
   const quadratic::Machine& machine = platform.machine();
   const frame_store::MemoryLimits memory = memory_limits(platform);
@@ -46,6 +51,7 @@ FrameLoad frame_load(const Quadratic& platform, const quadratic::ShownFrame& fra
   load.span_unit = span_clock.seconds(Cycles(frame.work.span_cycles));
   load.drawing = span_clock.seconds(Cycles(frame.work.span_cycles + frame.work.waiting_cycles));
   if (machine.span_unit.shadow_sets == 0) load.drawing += load.bus / static_cast<double>(machine.span_unit.units);
+  load.pixel_unit = machine.pixel_unit.clock().seconds(Cycles(frame.work.shading_cycles));
   load.accesses = memory.accesses(0, 0) + static_cast<double>(frame.work.accesses);
   load.memory = memory.seconds(load.accesses);
   load.pixels = static_cast<double>(frame.drawn.pixels);
@@ -67,18 +73,23 @@ std::vector<ComplexityLimit> complexity_limits(const Quadratic& platform, const 
                                               "memory), times the screens drawn"
                                             : "(frame - clear) / (span by span the slower of span unit and memory), "
                                               "times the screens drawn";
-  return {
+  std::vector<ComplexityLimit> limits{
       {"span_unit", "span unit", of(for_drawing, load.span_unit),
        "(frame - clear) / (loads, lines and pixels), times the screens drawn", kOfSpanUnit},
       {"memory", "frame store", of(for_drawing, load.memory - load.clear),
        "(frame - clear) / (tests and writes, bursts of the screen between them), times the screens drawn", kOfMemory},
-      {"drawing", load.memory_is_slower() ? "frame store" : "span unit", of(for_drawing, load.drawing), of_drawing,
+      {"drawing", slower_of_drawing(load), of(for_drawing, load.drawing), of_drawing,
        "span_unit.*, frame_store.*, video.*"},
       {"set_up", load.bus_is_slower() ? "bus" : "set-up processor", of(seconds, load.set_up()),
        "frame / (arithmetic and bus words), times the screens drawn", "host.*, set_up.*, video.refresh_hz"},
       {"bus", "bus", of(seconds, load.bus), "frame / bus words, times the screens drawn",
        "host.bus_cycles_per_word, host.bus_bits, host.clock_hz, video.refresh_hz"},
   };
+  if (platform.pixel_unit() != nullptr)
+    limits.push_back({"pixel_unit", "pixel unit", of(for_drawing, load.pixel_unit),
+                      "(frame - clear) / (loads, lines and pixels that are shaded), times the screens drawn",
+                      "pixel_unit.*, set_up.method, frame_store.clear, video.*"});
+  return limits;
 }
 
 WorstFrame worst_frame(const Quadratic& platform) {

@@ -2,6 +2,7 @@
 // time of a frame.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -16,17 +17,23 @@ struct FrameLoad {
   double bus = 0.0;         // its words
   double clear = 0.0;       // of the buffer, which comes before its first triangle
   double span_unit = 0.0;   // loads, lines, pixels
-  double drawing = 0.0;     // the same, waiting for the memory included; without shadow sets, for the words as well
-  double memory = 0.0;      // clear, tests and writes, and the screen where it shares the port
-  double pixels = 0.0;      // drawn, hidden ones included
-  double accesses = 0.0;    // of the memory's busiest bank, clear included
+  double pixel_unit = 0.0;  // loads, lines, pixels, where there is one
+  double drawing =
+      0.0;  // the span unit's, waiting for pixel unit and memory included; without shadow sets, for the words as well
+  double memory = 0.0;    // clear, tests and writes, and the screen where it shares the port
+  double pixels = 0.0;    // drawn, hidden ones included
+  double accesses = 0.0;  // of the memory's busiest bank, clear included
   double set_up() const { return arithmetic + bus; }
-  bool memory_is_slower() const { return memory - clear > span_unit; }
+  bool memory_is_slower() const { return memory - clear > std::max(span_unit, pixel_unit); }
+  bool pixel_unit_is_slower() const { return pixel_unit > span_unit && !memory_is_slower(); }
   bool bus_is_slower() const { return bus > arithmetic; }
   // From the time at which the buffer is free.
   double cleared_and_drawn() const { return clear + drawing; }
 };
 FrameLoad frame_load(const quadratic::Quadratic& platform, const quadratic::ShownFrame& frame);
+
+// Who takes longest of what is drawn: "span unit", "pixel unit" or "frame store".
+const char* slower_of_drawing(const FrameLoad& load);
 
 frame_store::MemoryLimits memory_limits(const quadratic::Quadratic& platform);
 // Seconds that a frame may take: those of a video frame where frames are shown at retraces.
@@ -43,7 +50,7 @@ struct ComplexityLimit {
   std::string formula;
   std::string moved_by;
 };
-// Of span unit, memory, both as they wait for each other, set-up processor, bus.
+// Of span unit, pixel unit where there is one, memory, all as they wait for each other, set-up processor, bus.
 std::vector<ComplexityLimit> complexity_limits(const quadratic::Quadratic& platform,
                                                const quadratic::ShownFrame& frame);
 

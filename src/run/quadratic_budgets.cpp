@@ -55,6 +55,7 @@ FrameLoad largest_load(const Quadratic& platform) {
     }
     most.clear = load.clear;
     most.span_unit = std::max(most.span_unit, load.span_unit);
+    most.pixel_unit = std::max(most.pixel_unit, load.pixel_unit);
     most.drawing = std::max(most.drawing, load.drawing);
     most.memory = std::max(most.memory, load.memory);
     most.accesses = std::max(most.accesses, load.accesses);
@@ -73,6 +74,9 @@ void add_frame_budgets(const Quadratic& platform, const FrameLoad& load, std::ve
   add("bus.frame", load.bus, "bus words of a frame's triangles",
       "host.bus_cycles_per_word, host.bus_bits, host.clock_hz, video.refresh_hz");
   add("span_unit.frame", load.span_unit, "loads, line changes and pixels of a frame", "span_unit.*, video.refresh_hz");
+  if (platform.pixel_unit() != nullptr)
+    add("pixel_unit.frame", load.pixel_unit, "loads, lines and pixels of a frame that are shaded one by one",
+        "pixel_unit.*, set_up.method, video.refresh_hz");
   add("frame_store.frame", load.memory,
       "accesses of a frame times access time, bursts of a shared screen between them: clear, depth tests, writes",
       "frame_store.*, video.refresh_hz");
@@ -131,6 +135,7 @@ Bottleneck bottleneck_of(const quadratic::Machine& m, const FrameLoad& load, dou
   if (set_up > turn) return {"set-up processor", load.bus_is_slower() ? "bus words" : "arithmetic and bus", set_up};
   if (in_turn) return {"frame store", "one buffer, drawn and shown in turn", turn};
   if (load.memory_is_slower()) return {"frame store", "memory accesses", drawing};
+  if (load.pixel_unit_is_slower()) return {"pixel unit", "loads, lines and pixels that are shaded", drawing};
   const char* const after_clear = "loads, lines and pixels, after the clear";
   return {"span unit", load.clear > 0.0 ? after_clear : "loads, lines and pixels", drawing};
 }

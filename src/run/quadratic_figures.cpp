@@ -35,7 +35,7 @@ stream::Occupancy scan_out_occupancy(const Quadratic& platform) {
   stream::Occupancy screen;
   screen.cycles = timing.clock.cycles_at(platform.end_ps()).count();
   const std::uint64_t sent = timing.pixels_sent(Cycles(screen.cycles), lines);
-  screen.busy = platform.links().back().words();
+  screen.busy = platform.links().at(Quadratic::kScreenLink).words();
   screen.starved = sent - screen.busy;
   screen.idle = screen.cycles - sent;
   return screen;
@@ -61,6 +61,8 @@ std::vector<UnitFigures> unit_figures(const Quadratic& platform) {
   for (std::size_t k = 0; k < spans.size(); ++k)
     add(spans.size() > 1 ? fmt::format("span unit {}", k) : std::string("span unit"),
         platform.machine().span_unit.clock(), spans[k]);
+  if (platform.pixel_unit() != nullptr)
+    add("pixel unit", platform.machine().pixel_unit.clock(), platform.pixel_unit()->occupancy());
   add("frame store", platform.frame_store().clock(), platform.frame_store().occupancy(end));
   add("scan-out", platform.timing().clock, scan_out_occupancy(platform));
   return units;

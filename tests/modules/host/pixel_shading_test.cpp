@@ -63,8 +63,17 @@ struct Host {
 
 void fill(World& world, bool two_sided = false) {
   std::mt19937 random(7);
-  add_random_triangles(world.add(two_sided, false), 60, 4.0, random);
+  geometry::Mesh& mesh = world.add(two_sided, false);
+  add_random_triangles(mesh, 60, 4.0, random);
+  // Between two lines of the screen: nothing is loaded.
+  add_triangle(mesh, {-1, 0.02, 0}, {1, 0.02, 0}, {0, 0.06, 0});
   world.places = {{glm::dvec3(0, 0, -11)}};
+}
+
+std::uint64_t sum_of_words(const std::vector<Drawn>& drawn) {
+  std::uint64_t words = 0;
+  for (const Drawn& one : drawn) words += one.words;
+  return words;
 }
 
 void expect_same_pixels(const Drawn& a, const Drawn& b) {
@@ -98,6 +107,8 @@ TEST(PixelShading, EveryTriangleOfAPixelMethodIsShadedAndNoCornerIsLit) {
       ASSERT_EQ(host.drawn[i].words, gouraud.drawn[i].words - (starts_again ? 15 : 9) + set_up_words);
     }
     EXPECT_EQ(host.work.counts().lighting.evaluations, 0U);
+    EXPECT_EQ(host.work.counts().words.total(), sum_of_words(host.drawn));
+    EXPECT_EQ(host.work.counts().colour.drawn, host.drawn.size() + 1);
     EXPECT_EQ(host.work.counts().shaded, host.drawn.size());
     EXPECT_EQ(host.work.counts().colour.drawn, gouraud.work.counts().colour.drawn);
   }
@@ -129,10 +140,11 @@ TEST(PixelShading, GouraudPhongShadesTheTrianglesWithAHighlight) {
         ASSERT_EQ(one.spans[k].i[c], gouraud.drawn[i].spans[k].i[c]);
     ASSERT_EQ(one.words, gouraud.drawn[i].words);
   }
+  const std::size_t unseen = marks.back() != set_up::Highlighted::no ? 1 : 0;  // the last triangle, between lines
   EXPECT_GT(shaded, 0U);
   EXPECT_LT(shaded, chosen.drawn.size());
   EXPECT_EQ(chosen.work.counts().shaded, shaded);
-  EXPECT_EQ(chosen.work.counts().lighting.evaluations, 3 * (chosen.drawn.size() - shaded));
+  EXPECT_EQ(chosen.work.counts().lighting.evaluations, 3 * (chosen.work.counts().colour.drawn - shaded - unseen));
 }
 
 // The back of a triangle that has two sides is lit as the front of one that is turned round.
@@ -164,7 +176,7 @@ TEST(PixelShading, TheHostIsChargedForSetUp) {
     // All that another method's frame takes more is its set-ups'.
     const Host phong(world, ShadingMethod::phong, {}, set_up::Attributes::linear);
     const std::uint64_t more = host.work.counts().operations.flops() - phong.work.counts().operations.flops();
-    EXPECT_EQ(more, host.drawn.size() *
+    EXPECT_EQ(more, host.work.counts().colour.drawn *
                         (host.work.shader()->set_up_cost().flops() - phong.work.shader()->set_up_cost().flops()));
   }
 }

@@ -16,11 +16,11 @@ const std::string kSphere = RASTERTLM_SOURCE_DIR "/configs/scenes/sphere_168.tom
 const Settings kSmall{"video.columns=64", "video.lines=64"};
 
 // The report and the picture, or what was wrong.
-std::string outcome(Settings settings) {
+std::string outcome(Settings settings, const std::string& machine = kQuadratic) {
   settings.insert(settings.begin(), kSmall.begin(), kSmall.end());
   return in_child([&]() -> std::string {
     try {
-      const run::Inputs inputs = run::read_inputs(kQuadratic, kSphere, settings);
+      const run::Inputs inputs = run::read_inputs(machine, kSphere, settings);
       std::vector<frame::Frame> shown;
       run::Options options;
       options.reference = false;
@@ -142,6 +142,24 @@ TEST(Parameters, DepthsThatAScreenHasNoRoomForAreRefused) {
   EXPECT_NE(refused(24, 0).find("at least 2 are accepted"), std::string::npos) << refused(24, 0);
   EXPECT_NE(refused(24, 1).find("span_unit.depth_fraction_bits"), std::string::npos);
   EXPECT_EQ(refused(24, 2), "");
+}
+
+TEST(Parameters, OfAPixelUnitMoveSomething) {
+  const std::string adaptive = RASTERTLM_SOURCE_DIR "/configs/machines/adaptive.toml";
+  const std::string before = outcome({"set_up.method=phong"}, adaptive);
+  EXPECT_FALSE(before.starts_with("refused")) << before;
+  std::size_t tried = 0;
+  for (const auto& [title, table] : run::described_tables()) {
+    if (title != "machine adaptive") continue;
+    for (const Parameter& p : table.parameters()) {
+      if (!p.path.starts_with("pixel_unit.")) continue;
+      ++tried;
+      const std::string after = outcome({"set_up.method=phong", p.path + '=' + next_value(p)}, adaptive);
+      EXPECT_FALSE(after.starts_with("refused")) << after.substr(0, 300);
+      EXPECT_TRUE(before != after) << p.path << " moves nothing";
+    }
+  }
+  EXPECT_EQ(tried, 5U);
 }
 
 // Two runs, and every vector variant, give the same bytes.
