@@ -10,7 +10,6 @@
 namespace rastertlm::set_up {
 namespace {
 
-using geometry::SnappedPoint;
 using Number = geometry::Counted<double>;
 
 constexpr int kEdgeBits = 6;    // a highlight's place on an edge: 64ths of it

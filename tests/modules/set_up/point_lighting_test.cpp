@@ -20,6 +20,7 @@ class PointLightingTest : public testing::Test {
   glm::dvec3 direction() { return glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))); }
   std::vector<geometry::LightSource> lights() {
     std::vector<geometry::LightSource> all;
+    all.reserve(3);
     for (int i = 0; i < 3; ++i)
       all.push_back({i == 1, i == 1 ? 5.0 * direction() : direction(), glm::dvec3(0.4), glm::dvec3(0.3)});
     return all;
