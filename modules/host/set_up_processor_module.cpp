@@ -11,7 +11,13 @@ using span_unit::LoadPayload;
 
 SetUpProcessorModule::SetUpProcessorModule(const sc_core::sc_module_name& name, SetUpWork& work, const HostCost& cost,
                                            Timeline timeline, stream::Link& link)
-    : sc_module(name), bus("bus"), work_(work), cost_(cost), timeline_(std::move(timeline)), link_(link) {
+    : sc_module(name),
+      bus("bus"),
+      work_(work),
+      cost_(cost),
+      crossings_(work.widths(), cost.bus_bits()),
+      timeline_(std::move(timeline)),
+      link_(link) {
   SC_HAS_PROCESS(SetUpProcessorModule);
   SC_THREAD(run_guarded);
 }
@@ -63,7 +69,7 @@ void SetUpProcessorModule::compute(SetUpFrame& frame) {
 void SetUpProcessorModule::send(const span_unit::TriangleLoad& load, SetUpFrame& frame) {
   const set_up::LoadWords kinds = work_.words_of(load);
   const std::uint64_t words = kinds.total();
-  const std::uint64_t bus_words = set_up::bus_words(kinds, work_.widths(), cost_.bus_bits());
+  const std::uint64_t bus_words = crossings_.of(kinds);
   const Cycles writing = cost_.bus_transfer(bus_words);
   payload_.load = &load;
   payload_.words = words;

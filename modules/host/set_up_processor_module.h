@@ -66,6 +66,7 @@ class SetUpProcessorModule : public sc_core::sc_module {
 
   SetUpWork& work_;
   const HostCost& cost_;
+  set_up::BusCrossings crossings_;
   Timeline timeline_;
   stream::Link& link_;
   span_unit::LoadPayload payload_;

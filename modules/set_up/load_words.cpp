@@ -4,29 +4,39 @@
 
 namespace rastertlm::set_up {
 
-LoadWords& LoadWords::operator+=(const LoadWords& other) {
-  lines += other.lines;
-  columns += other.columns;
-  rests += other.rests;
-  colours += other.colours;
-  depths += other.depths;
-  return *this;
-}
+namespace {
 
-LoadWords load_words(const span_unit::TriangleLoad& load, bool linear) {
+struct Halves {
+  LoadWords one;             // no second half
+  LoadWords two;             // which begins with registers of its own
+  LoadWords two_that_go_on;  // or goes on with the first's
+};
+
+constexpr Halves halves_of(bool linear) {
   constexpr LoadWords kEdge{0, 2, 3, 0, 0};
   constexpr LoadWords kLines{1, 0, 0, 0, 0};
-  if (load.count == 0) return {};
-  LoadWords words{1, 0, 0, span_unit::kChannels * (linear ? 3U : 6U), 3};  // the first line's number too
-  words += kLines;
-  words += kEdge;
-  words += kEdge;
-  if (load.count < 2) return words;
-  words += kLines;
-  words += kEdge;
+  Halves halves;
+  halves.one = {1, 0, 0, span_unit::kChannels * (linear ? 3U : 6U), 3};  // the first line's number too
+  halves.one += kLines;
+  halves.one += kEdge;
+  halves.one += kEdge;
+  halves.two_that_go_on = halves.one;
+  halves.two_that_go_on += kLines;
+  halves.two_that_go_on += kEdge;
+  halves.two = halves.two_that_go_on;
   // Neither 2 T5 nor what a pixel adds to depth changes.
-  if (!load.second_goes_on) words += {0, 0, 0, span_unit::kChannels * (linear ? 2U : 5U), 2};
-  return words;
+  halves.two += {0, 0, 0, span_unit::kChannels * (linear ? 2U : 5U), 2};
+  return halves;
+}
+
+}  // namespace
+
+LoadWords load_words(const span_unit::TriangleLoad& load, bool linear) {
+  static constexpr Halves kLinear = halves_of(true), kQuadratic = halves_of(false);
+  if (load.count == 0) return {};
+  const Halves& halves = linear ? kLinear : kQuadratic;
+  if (load.count < 2) return halves.one;
+  return load.second_goes_on ? halves.two_that_go_on : halves.two;
 }
 
 LoadWidths load_widths(std::uint64_t columns, std::uint64_t lines, unsigned corner_bits, unsigned colour_bits,
@@ -41,13 +51,13 @@ LoadWidths load_widths(std::uint64_t columns, std::uint64_t lines, unsigned corn
   return widths;
 }
 
-std::uint64_t bus_words(const LoadWords& words, const LoadWidths& widths, std::uint64_t bus_bits) {
-  const auto crossing = [bus_bits](std::uint64_t count, unsigned width) {
-    return count * ((width + bus_bits - 1) / bus_bits);
-  };
-  return crossing(words.lines, widths.lines) + crossing(words.columns, widths.columns) +
-         crossing(words.rests, widths.rests) + crossing(words.colours, widths.colours) +
-         crossing(words.depths, widths.depths);
+BusCrossings::BusCrossings(const LoadWidths& widths, std::uint64_t bus_bits) {
+  const auto crossing = [bus_bits](unsigned width) { return (width + bus_bits - 1) / bus_bits; };
+  lines_ = crossing(widths.lines);
+  columns_ = crossing(widths.columns);
+  rests_ = crossing(widths.rests);
+  colours_ = crossing(widths.colours);
+  depths_ = crossing(widths.depths);
 }
 
 }  // namespace rastertlm::set_up

@@ -14,7 +14,14 @@ struct LoadWords {
   std::uint64_t colours = 0;
   std::uint64_t depths = 0;
   std::uint64_t total() const { return lines + columns + rests + colours + depths; }
-  LoadWords& operator+=(const LoadWords& other);
+  constexpr LoadWords& operator+=(const LoadWords& other) {
+    lines += other.lines;
+    columns += other.columns;
+    rests += other.rests;
+    colours += other.colours;
+    depths += other.depths;
+    return *this;
+  }
   friend bool operator==(const LoadWords&, const LoadWords&) = default;
 };
 
@@ -36,7 +43,20 @@ struct LoadWidths {
 LoadWidths load_widths(std::uint64_t columns, std::uint64_t lines, unsigned corner_bits, unsigned colour_bits,
                        unsigned depth_bits);
 
-// A word that is wider than the bus crosses it in several.
-std::uint64_t bus_words(const LoadWords& words, const LoadWidths& widths, std::uint64_t bus_bits);
+// A word that is wider than the bus crosses it in several: in how many, a kind.
+class BusCrossings {
+ public:
+  BusCrossings(const LoadWidths& widths, std::uint64_t bus_bits);
+  std::uint64_t of(const LoadWords& words) const {
+    return words.lines * lines_ + words.columns * columns_ + words.rests * rests_ + words.colours * colours_ +
+           words.depths * depths_;
+  }
+
+ private:
+  std::uint64_t lines_, columns_, rests_, colours_, depths_;
+};
+inline std::uint64_t bus_words(const LoadWords& words, const LoadWidths& widths, std::uint64_t bus_bits) {
+  return BusCrossings(widths, bus_bits).of(words);
+}
 
 }  // namespace rastertlm::set_up

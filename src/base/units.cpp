@@ -13,7 +13,7 @@ constexpr std::uint64_t kFemtosecondsPerPicosecond = 1000;
 // Most fit into a word, and divisions of words are much the faster.
 std::uint64_t quotient(Wide dividend, std::uint64_t divisor) {
   const auto low = static_cast<std::uint64_t>(dividend);
-  if (dividend == low) return low / divisor;
+  if (dividend == low) return divisor == 1 ? low : low / divisor;
   return static_cast<std::uint64_t>(dividend / divisor);
 }
 }  // namespace
