@@ -56,7 +56,7 @@ inline constexpr std::array<ShadingMethodTraits, 12> kShadingMethods{{
     {ShadingMethod::angular, "angular", "angle of the normal, linear along edges and lines", "every pixel", false,
      false, "adaptive", "Kuijk and Blake 1989"},
     {ShadingMethod::pseudo_phong, "pseudo_phong", "colour, linear in each of 4^k parts",
-     "corners of the parts, from edges halved k times", false, false, "quadratic", "000/001, section 2"},
+     "corners of the parts, from edges halved k times", false, false, "quadratic, adaptive", "000/001, section 2"},
 }};
 
 constexpr const ShadingMethodTraits& traits_of(ShadingMethod method) {

@@ -12,6 +12,7 @@ using parameter::Parameter;
 using Settings = std::vector<std::string>;
 
 const std::string kQuadratic = RASTERTLM_SOURCE_DIR "/configs/machines/quadratic.toml";
+const std::string kAdaptiveMachine = RASTERTLM_SOURCE_DIR "/configs/machines/adaptive.toml";
 const std::string kSphere = RASTERTLM_SOURCE_DIR "/configs/scenes/sphere_168.toml";
 const Settings kSmall{"video.columns=64", "video.lines=64"};
 
@@ -90,30 +91,55 @@ const std::map<std::string, Change>& special_changes() {
   return changes;
 }
 
-TEST(Parameters, OfTheQuadraticMachineMoveSomething) {
+// Of the adaptive machine, where they differ.
+std::map<std::string, Change> adaptive_changes() {
+  std::map<std::string, Change> changes = special_changes();
+  const Settings cut{"subdivision.area_pixels=1.0"}, at_highlights{"set_up.method=highlight_subdivision"};
+  changes["highlight_test.rings"] = {cut, {"highlight_test.rings=0"}};
+  changes["highlight_test.refinements"] = {at_highlights, {"highlight_test.refinements=0"}};
+  changes["subdivision.area_pixels"] = {{}, cut};
+  changes["subdivision.intensity_error"] = {at_highlights, {"subdivision.intensity_error=0.001"}};
+  changes["subdivision.depth_limit"] = {cut, {"subdivision.depth_limit=0"}};
+  for (const char* path : {"clock_ns", "cycles_per_pixel", "latency_cycles", "cycles_per_line", "load_cycles"}) {
+    const std::string key = std::string("pixel_unit.") + path;
+    changes[key] = {{"set_up.method=phong"}, {key + (key.ends_with("ns") ? "=62.5" : "=40")}};
+  }
+  return changes;
+}
+
+// How many were tried.
+std::size_t every_parameter_moves_something(const std::string& title, const std::string& machine,
+                                            const std::map<std::string, Change>& special) {
   std::size_t tried = 0;
-  for (const auto& [title, table] : run::described_tables()) {
-    if (title != "machine quadratic") continue;
+  for (const auto& [name, table] : run::described_tables()) {
+    if (name != title) continue;
     for (const Parameter& p : table.parameters()) {
       if (p.about.exempt) continue;
       Change change;
-      if (const auto found = special_changes().find(p.path); found != special_changes().end())
+      if (const auto found = special.find(p.path); found != special.end())
         change = found->second;
       else if (p.about.only_when)
         change = {{p.about.only_when->path + '=' + p.about.only_when->values.front()}, {p.path + '=' + next_value(p)}};
       else
         change = {{}, {p.path + '=' + next_value(p)}};
-      const std::string before = outcome(change.beside);
+      const std::string before = outcome(change.beside, machine);
       Settings changed = change.beside;
       changed.insert(changed.end(), change.change.begin(), change.change.end());
-      const std::string after = outcome(changed);
+      const std::string after = outcome(changed, machine);
       ++tried;
       EXPECT_FALSE(before.starts_with("refused")) << p.path << ": " << before;
       EXPECT_EQ(after.starts_with("refused"), change.refused) << p.path << ": " << after.substr(0, 300);
       EXPECT_TRUE(before != after) << p.path << " moves nothing";
     }
   }
-  EXPECT_GT(tried, 45U);
+  return tried;
+}
+
+TEST(Parameters, OfTheQuadraticMachineMoveSomething) {
+  EXPECT_GT(every_parameter_moves_something("machine quadratic", kQuadratic, special_changes()), 45U);
+}
+TEST(Parameters, OfTheAdaptiveMachineMoveSomething) {
+  EXPECT_GT(every_parameter_moves_something("machine adaptive", kAdaptiveMachine, adaptive_changes()), 45U);
 }
 
 // Margins of 257 units on both sides of the depths of 512 x 512: 8 bits hold nothing between, 9 hold near behind far.
