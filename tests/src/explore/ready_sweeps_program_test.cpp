@@ -114,13 +114,39 @@ TEST_F(ReadySweepTest, Resolutions) {
               figure(table, "answer.headroom", {screen, "1", "28 bits"}));
 }
 
+// An eighth of it: every method once, on the smaller screen.
+TEST_F(ReadySweepTest, ShadingMethods) {
+  const std::string file = std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps/shading_methods.toml";
+  const Outcome outcome = run({"explore", "run", file, "--store", "s.sqlite", "--jobs", "2", "--shard", "1/8"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  explore::SweepTable found = table();
+  std::erase_if(found.rows, [](const explore::Row& row) { return row.state != explore::State::done; });
+  ASSERT_EQ(found.rows.size(), 16U);
+  const auto error = [&](const char* method) {
+    return figure(found, "max(images[].error.rmse_level)", {method, "5", "256 x 256"});
+  };
+  const auto set_up = [&](const char* method) {
+    return figure(found, "budgets[set_up.frame].used", {method, "5", "256 x 256"});
+  };
+  EXPECT_LT(error("Phong"), error("Gouraud and Phong"));
+  EXPECT_LT(error("Gouraud and Phong"), error("gouraud"));
+  EXPECT_LT(error("pseudo-Phong 2"), error("pseudo-Phong 1"));
+  EXPECT_LT(error("regular 8 px"), error("regular 256 px"));
+  EXPECT_LE(error("regular 32 px, 2 rings"), error("regular 32 px, no ring"));
+  // Nothing is lit at corners; more parts, more light.
+  EXPECT_LT(set_up("Phong"), set_up("gouraud"));
+  EXPECT_LT(set_up("gouraud"), set_up("pseudo-Phong 1"));
+  EXPECT_LT(set_up("regular 256 px"), set_up("regular 8 px"));
+  EXPECT_LT(set_up("highlight 1.0"), set_up("highlight 0.05"));
+}
+
 // Nobody adds one without a test above.
 TEST_F(ReadySweepTest, AllAreTested) {
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps"))
     found.insert(entry.path().stem().string());
-  EXPECT_EQ(found, (std::set<std::string>{"loaders", "pipeline_or_tree", "resolutions", "span_units", "transputers",
-                                          "word_lengths"}));
+  EXPECT_EQ(found, (std::set<std::string>{"loaders", "pipeline_or_tree", "resolutions", "shading_methods", "span_units",
+                                          "transputers", "word_lengths"}));
 }
 
 }  // namespace
