@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 
 #include "src/base/errors.h"
@@ -149,6 +150,13 @@ void keep_memory() {
   constexpr int kLarge = 1 << 30;
   ::mallopt(M_MMAP_THRESHOLD, kLarge);
   ::mallopt(M_TRIM_THRESHOLD, kLarge);
+  // Large pages, where the system gives them: a worker would come to most of its time by small ones.
+  constexpr std::size_t kPage = std::size_t{2} << 20, kArena = 8 * kPage;
+  if (void* const arena = std::malloc(kArena + kPage)) {
+    const auto begin = (reinterpret_cast<std::uintptr_t>(arena) + kPage - 1) / kPage * kPage;
+    ::madvise(reinterpret_cast<void*>(begin), kArena, MADV_HUGEPAGE);
+    std::free(arena);
+  }
 }
 
 // The worker's life. It ends with who forked it; interrupts are for that one, who then ends it.
