@@ -16,6 +16,7 @@ export RASTERTLM="${RASTERTLM:-rastertlm}"
 mkdir -p "$folder"
 
 seq "$shards" | parallel --retries 3 --joblog "$folder/parallel.log" --tagstring 'shard {}' \
-  "$RASTERTLM" explore run "$sweep" --shard "{}/$shards" --store "$folder/shard_{}_of_$shards.sqlite" --resume --jobs 1
+  "$RASTERTLM" explore run "$sweep" --shard "{}/$shards" --store "$folder/shard_{}_of_$shards.sqlite" --resume --jobs 1 \
+  '||' test '$?' -eq 1  # some points failed: they are results, and another turn would not mend them
 
 exec "$(dirname "${BASH_SOURCE[0]}")/merge.sh" "$folder" "$shards"

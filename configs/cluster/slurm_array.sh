@@ -46,6 +46,8 @@ while :; do
   caught=0
 done
 
+if (( status == 1 )); then status=0; fi  # some points failed: they are results, and another turn would not mend them
+
 if (( again && status != 0 )); then
   echo "$(date '+%F %T') shard $shard of $shards goes on in another turn"
   exec scontrol requeue "${SLURM_ARRAY_JOB_ID}_$shard"

@@ -22,7 +22,9 @@ namespace {
 
 constexpr const char* kFooter =
     "Exit codes: 0 done; 1 done, but a stated requirement is not met; 2 bad input or usage;\n"
-    "3 a rule of the model or an internal check was broken; 4 the output could not be written.";
+    "3 a rule of the model or an internal check was broken; 4 the output could not be written;\n"
+    "130 interrupted (SIGINT), 143 terminated (SIGTERM).\n"
+    "explore run: 1 some points failed; all failed: 2 by bad values alone, else 3.";
 
 using Commands = std::vector<std::unique_ptr<Command>>;
 

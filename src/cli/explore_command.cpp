@@ -49,6 +49,24 @@ void refuse_too_many(const explore::Sweep& sweep, const explore::Design& design,
                                           report::counted(jobs, "job", "jobs"), report::grouped(kMostUnasked))});
 }
 
+// Why points failed: the first of them, and how many others did.
+std::string failure_text(const RunStatus& status) {
+  std::string error = status.first_error;
+  std::replace(error.begin(), error.end(), '\n', ' ');
+  const std::uint64_t others = status.failed - 1;
+  return fmt::format("rastertlm: point {} failed: {}{}\n", status.first_failed, error,
+                     others == 0 ? std::string()
+                                 : fmt::format("; so did {}, `explore show` lists why",
+                                               report::counted(others, "other point", "other points")));
+}
+
+// Points that are missing leave the sweep's question half answered; where all are, the reason says whose fault it was.
+ExitCode code_of(const RunStatus& status) {
+  if (status.failed == 0) return ExitCode::kDone;
+  if (status.failed < status.points) return ExitCode::kRequirementMissed;
+  return status.wrong == status.failed ? ExitCode::kBadInput : ExitCode::kModelBroken;
+}
+
 ExitCode end_of(const RunStatus& status, const std::string& store) {
   using report::grouped;
   if (status.signal != 0) {
@@ -65,7 +83,8 @@ ExitCode end_of(const RunStatus& status, const std::string& store) {
       grouped(status.failed), status.seconds,
       status.seconds > 0.0 ? static_cast<double>(status.simulated) / status.seconds : 0.0, store);
   std::fputs(text.c_str(), stdout);
-  return status.failed == status.points && status.points > 0 ? ExitCode::kModelBroken : ExitCode::kDone;
+  if (status.failed > 0) std::fputs(failure_text(status).c_str(), stderr);
+  return code_of(status);
 }
 
 }  // namespace
@@ -80,7 +99,9 @@ void ExploreCommand::declare(CLI::App& app) {
 
 void ExploreCommand::declare_run(CLI::App& app) {
   app.add_option("SWEEP", sweep_, "sweep file")->required();
-  app.add_option("--set", overrides_, "path=value: set a parameter of every point's machine or scene")
+  app.add_option("--set", overrides_,
+                 "path=value: set a parameter of every point's machine or scene; of a list's element\n"
+                 "as object[0].radius=2")
       ->type_name("path=value")
       ->allow_extra_args(false);
   validated(app.add_option("--store", store_, "file of the results (default: out/<sweep>.sqlite)")->type_name("FILE"),
@@ -107,7 +128,7 @@ void ExploreCommand::declare_show(CLI::App& app) {
   validated(point->type_name("N"), frame_number);
   auto* tolerance =
       app.add_option("--tolerance", tolerance_, "part by which a figure may be worse and count as no worse");
-  tolerance->capture_default_str()->type_name("FRACTION")->check(CLI::Range(0.0, 1.0));
+  validated(tolerance->capture_default_str()->type_name("FRACTION"), part_of_one);
   validated(app.add_option("--rows", rows_, "rows of a table at most")->capture_default_str()->type_name("N"),
             whole_from_one);
   std::vector<CLI::Option*> forms{
@@ -160,8 +181,10 @@ ExitCode ExploreCommand::run_sweep() {
 }
 
 ExitCode ExploreCommand::merge() {
-  explore::merge_stores(store_, parts_);
+  const std::string lacking = explore::lacking_text(explore::merge_stores(store_, parts_));
   std::fputs(fmt::format("{}: {} joined\n", store_, report::counted(parts_.size(), "store", "stores")).c_str(), stdout);
+  if (!lacking.empty())
+    std::fputs(fmt::format("{}; `explore run --resume` on it simulates them\n", lacking).c_str(), stdout);
   return ExitCode::kDone;
 }
 
@@ -196,6 +219,7 @@ ExitCode ExploreCommand::show() {
   if (html_.empty()) {
     std::fputs(shown(table).c_str(), stdout);
   } else {
+    report::make_folder_of(html_);
     report::write_whole_file(html_, explore::sweep_page(table));
     std::fputs((html_ + '\n').c_str(), stdout);
   }

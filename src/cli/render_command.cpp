@@ -36,7 +36,7 @@ run::Result simulate(const run::Inputs& inputs, const run::Options& options, rep
   }
 }
 
-void print_summary(const run::Result& result, const std::string& directory) {
+void print_summary(const run::Result& result, const std::string& directory, bool timeline) {
   std::string text = report::answer_sentence(result) + '\n';
   if (const auto ideal = report::worst_of(result, "ideal"))
     text += fmt::format(
@@ -44,8 +44,9 @@ void print_summary(const run::Result& result, const std::string& directory) {
         report::grouped(ideal->covered_missing), report::grouped(ideal->covered_extra), ideal->max_level,
         report::decibels(ideal->psnr_outline_db, ideal->compared + ideal->covered_missing + ideal->covered_extra));
   for (const std::string& warning : result.warnings) text += "Warning: " + warning + '\n';
-  text += fmt::format("{}/{}, {}, {}\n", directory, report::kReportText, report::kReportJson,
-                      result.frames.empty() ? report::kFramesCsv : report::picture_name(result.frames.front().frame));
+  text += fmt::format("{}/{}, {}, {}{}\n", directory, report::kReportText, report::kReportJson,
+                      result.frames.empty() ? report::kFramesCsv : report::picture_name(result.frames.front().frame),
+                      timeline ? fmt::format(", {}", report::kTimeline) : std::string());
   std::fputs(text.c_str(), stdout);
 }
 
@@ -57,7 +58,9 @@ void RenderCommand::declare(CLI::App& app) {
   };
   app.add_option("MACHINE", machine_, "machine file")->capture_default_str();
   app.add_option("SCENE", scene_, "scene file")->capture_default_str();
-  app.add_option("--set", overrides_, "path=value: set a parameter of the machine, or of the scene")
+  app.add_option("--set", overrides_,
+                 "path=value: set a parameter of the machine, or of the scene; of a list's element\n"
+                 "as object[0].radius=2")
       ->type_name("path=value")
       ->allow_extra_args(false);
   validated(app.add_option("--frames", frames_, "displayed frames")->capture_default_str()->type_name("N"),
@@ -113,7 +116,7 @@ ExitCode RenderCommand::run() {
       writer.write_reports({simulate(inputs, run_options(), writer), host_figures_}, run::resolved_machine_toml(inputs),
                            run::resolved_scene_toml(inputs));
   directory.commit();
-  print_summary(contents.result, output_directory());
+  print_summary(contents.result, output_directory(), !timeline_frames_.empty() || !timeline_lines_.empty());
   const std::vector<std::string> missed = missed_requirements(contents.result, require_rate_, require_psnr_);
   for (const std::string& sentence : missed) std::fputs((sentence + '\n').c_str(), stdout);
   return missed.empty() ? ExitCode::kDone : ExitCode::kRequirementMissed;

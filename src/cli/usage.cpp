@@ -61,6 +61,12 @@ std::string finite_and_positive(const std::string& text) {
   return fmt::format("'{}' is not a number above 0", text);
 }
 
+std::string part_of_one(const std::string& text) {
+  double number = 0.0;
+  if (reads_as(text, number) && number >= 0.0 && number <= 1.0) return {};  // not a number is neither
+  return fmt::format("'{}' is not a number from 0 to 1", text);
+}
+
 std::string whole_from_one(const std::string& text) {
   std::uint64_t number = 0;
   if (reads_as(text, number) && number >= 1 && number <= kMostFrames) return {};

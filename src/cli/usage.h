@@ -17,6 +17,7 @@ std::string left_over(const CLI::App& app, const std::vector<std::string>& words
 
 // Validators: an empty text, or what is wrong.
 std::string finite_and_positive(const std::string& text);
+std::string part_of_one(const std::string& text);  // a number from 0 to 1
 std::string whole_from_one(const std::string& text);
 std::string frame_number(const std::string& text);  // 0 .. one less than whole_from_one() allows
 std::string field_number(const std::string& text);  // 0 or 1

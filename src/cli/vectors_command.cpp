@@ -45,7 +45,9 @@ void VectorsCommand::declare(CLI::App& app) {
   };
   app.add_option("MACHINE", machine_, "machine file")->capture_default_str();
   app.add_option("SCENE", scene_, "scene file")->capture_default_str();
-  app.add_option("--set", overrides_, "path=value: set a parameter of the machine, or of the scene")
+  app.add_option("--set", overrides_,
+                 "path=value: set a parameter of the machine, or of the scene; of a list's element\n"
+                 "as object[0].radius=2")
       ->type_name("path=value")
       ->allow_extra_args(false);
   validated(app.add_option("--frame", frame_, "displayed frame, from 0")->capture_default_str()->type_name("N"),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -49,12 +50,22 @@ std::string with_article(Kind kind) {
   throw Refusal{fmt::format("wrong type: expected {}, found {}", expected, found(raw))};
 }
 
+// An override that no integer holds comes as its text.
+bool is_whole_number(const std::string& text) {
+  const std::size_t first = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
+  return text.size() > first && std::all_of(text.begin() + static_cast<std::ptrdiff_t>(first), text.end(),
+                                            [](char c) { return c >= '0' && c <= '9'; });
+}
+
 std::int64_t integer(const Raw& raw) {
   if (const auto* value = std::get_if<std::int64_t>(&raw.value)) return *value;
   if (const auto* value = std::get_if<double>(&raw.value);
       value != nullptr && std::isfinite(*value) && *value == std::floor(*value) && std::abs(*value) < 9e15)
     throw Refusal{fmt::format("wrong type: expected an integer, found {}; write {} without a point", found(raw),
                               static_cast<std::int64_t>(*value))};
+  if (const auto* digits = std::get_if<std::string>(&raw.value); digits != nullptr && is_whole_number(*digits))
+    throw Refusal{fmt::format("{} is out of range: it does not fit 64 bits, from {} to {}", *digits,
+                              std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max())};
   wrong_type("an integer", raw);
 }
 

@@ -36,6 +36,25 @@ std::vector<std::string> known_paths(const parameter::Table& table) {
   return paths;
 }
 
+// "object.0.radius" as it is written here, "object[0].radius"; "" where no key is a number.
+std::string with_brackets(const std::string& path) {
+  std::string text;
+  bool changed = false;
+  for (std::size_t at = 0; at <= path.size();) {
+    const std::size_t end = std::min(path.find('.', at), path.size());
+    const std::string key = path.substr(at, end - at);
+    const bool number = !key.empty() && key.find_first_not_of("0123456789") == std::string::npos;
+    if (number && !text.empty()) {
+      text += '[' + key + ']';
+      changed = true;
+    } else {
+      text += (text.empty() ? "" : ".") + key;
+    }
+    at = end + 1;
+  }
+  return changed ? text : "";
+}
+
 std::string nearest_path(const std::string& path, const std::vector<std::string>& known) {
   const std::string leaf = leaf_of(path);
   std::vector<std::string> siblings;
@@ -54,6 +73,8 @@ std::string nearest_path(const std::string& path, const std::vector<std::string>
 std::string unknown_key_message(const std::string& path, const Place& place) {
   std::string message = fmt::format("unknown key '{}'", printable(path));
   if (place.table == nullptr || place.rest.size() > kLongestGuess) return message;
+  if (const std::string written = with_brackets(path); !written.empty())
+    return message + fmt::format("; an element of a list is written '{}'", printable(written));
   const std::string rest = place.rest.substr(0, place.rest.find('['));
   const std::vector<std::string> known = known_paths(*place.table);
   if (const std::string near = nearest_path(rest, known); !near.empty())

@@ -61,9 +61,10 @@ bool read_number(const std::string& text, double& value) {
 
 std::variant<Constraint, std::string> parse_constraint(const std::string& text) {
   const Found sign = find_sign(text);
-  Constraint constraint{text, trimmed(text.substr(0, sign.at)), sign.sign.comparison, 1.0};
+  Constraint constraint{text, trimmed(text.substr(0, sign.at)), sign.sign.comparison, 1.0, false, 0};
   if (sign.at == std::string::npos) {
     constraint.comparison = Comparison::equal;
+    constraint.alone = true;
   } else {
     const std::string number = trimmed(text.substr(sign.at + std::char_traits<char>::length(sign.sign.text)));
     if (!read_number(number, constraint.value))

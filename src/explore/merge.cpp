@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -85,14 +86,60 @@ void join(Database& joined, const std::string& name) {
   transaction.commit();
 }
 
+Lacking lacking_of(Database& joined, const std::string& digest) {
+  Lacking lacking;
+  Statement point(joined,
+                  "SELECT number, result IS NULL FROM point WHERE sweep = (SELECT id FROM sweep WHERE digest = ?) "
+                  "ORDER BY number");
+  point.bind(1, digest);
+  while (point.step()) {
+    ++lacking.points;
+    if (point.integer(1) != 0) lacking.missing.push_back(static_cast<std::uint64_t>(point.integer(0)));
+  }
+  return lacking;
+}
+
+// Of so many shares, those that are missing as a whole, from 1; none where a share is missing in part.
+std::vector<std::uint64_t> whole_shares(const Lacking& lacking, std::uint64_t shares) {
+  std::vector<std::uint64_t> missing(shares, 0);
+  for (const std::uint64_t number : lacking.missing) ++missing[number % shares];
+  std::vector<std::uint64_t> whole;
+  for (std::uint64_t share = 0; share < shares; ++share) {
+    const std::uint64_t points = (lacking.points + shares - 1 - share) / shares;
+    if (missing[share] == points)
+      whole.push_back(share + 1);
+    else if (missing[share] > 0)
+      return {};
+  }
+  return whole;
+}
+
 }  // namespace
 
-void merge_stores(const std::string& out, const std::vector<std::string>& stores) {
+std::string lacking_text(const Lacking& lacking) {
+  if (lacking.missing.empty()) return "";
+  constexpr std::uint64_t kMostShares = 1000;
+  std::string which = fmt::format("the first is point {}", lacking.missing.front());
+  // A share of one point is a point: more than half as many shares tell nothing.
+  for (std::uint64_t shares = 2; shares <= std::min(kMostShares, lacking.points / 2); ++shares) {
+    const std::vector<std::uint64_t> whole = whole_shares(lacking, shares);
+    if (whole.empty()) continue;
+    which = "all of share";
+    for (const std::uint64_t share : whole)
+      which += fmt::format("{} {}/{}", share == whole.front() ? "" : ",", share, shares);
+    break;
+  }
+  return fmt::format("{} of {} points {} no result: {}", lacking.missing.size(), lacking.points,
+                     lacking.missing.size() == 1 ? "has" : "have", which);
+}
+
+Lacking merge_stores(const std::string& out, const std::vector<std::string>& stores) {
   std::error_code error;
   if (std::filesystem::exists(out, error))
     throw InputError(Diagnostic{out, 0, "", "is there already; name another, or remove it"});
   const std::string partial = fmt::format("{}.partial-{}", out, ::getpid());
   remove_store(partial);
+  Lacking lacking;
   try {
     Store joined(partial, Store::Opening::fresh);
     std::string digest;
@@ -114,6 +161,7 @@ void merge_stores(const std::string& out, const std::vector<std::string>& stores
     Statement shown(joined.database(), "UPDATE sweep SET entered = 1 WHERE digest = ?");
     shown.bind(1, digest).run();
     joined.keep_front();
+    lacking = lacking_of(joined.database(), digest);
     joined.database().text("PRAGMA journal_mode = DELETE");  // one file
   } catch (...) {
     remove_store(partial);
@@ -124,6 +172,7 @@ void merge_stores(const std::string& out, const std::vector<std::string>& stores
     remove_store(partial);
     throw OutputError(report::output_message(out, number));
   }
+  return lacking;
 }
 
 }  // namespace rastertlm::explore

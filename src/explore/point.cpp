@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "src/base/digest.h"
 #include "src/base/errors.h"
 #include "src/base/version.h"
@@ -17,6 +19,21 @@ std::string text_of(const std::vector<config::Override>& sets) {
 }
 
 }  // namespace
+
+// A sweep gives its values as --set does; what is wrong with them is the sweep's.
+InputError PointMaker::of_sweep(const InputError& error, const std::vector<std::size_t>& choices) const {
+  std::vector<Diagnostic> diagnostics = error.diagnostics();
+  for (Diagnostic& one : diagnostics) {
+    if (one.file != "--set" || sweep_.asked.contains(one.key)) continue;
+    one.file = sweep_.file;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      const Vary& axis = sweep_.axes[i];
+      for (const config::Override& set : axis.choices.at(choices[i]).sets)
+        if (set.path == one.key) one.line = axis.line;
+    }
+  }
+  return InputError(std::move(diagnostics));
+}
 
 std::string PointMaker::key_of(const std::string& what) const {
   return sha256_hex(
@@ -49,7 +66,7 @@ Point PointMaker::make(const std::vector<std::size_t>& choices) {
     point.key = key_of(point.config_digest + '\n' + point.scene_digest);
   } catch (const InputError& error) {
     point = Point{};
-    point.error = error.what();
+    point.error = of_sweep(error, choices).what();
     point.key = key_of(fmt::format("wrong\n{}\n{}\n{}", text_of(machine), text_of(scene), explore::text_of(sets)));
   }
   return point;

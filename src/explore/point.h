@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/errors.h"
 #include "src/explore/design.h"
 #include "src/explore/sweep.h"
 #include "src/run/input_files.h"
@@ -30,6 +31,7 @@ class PointMaker {
   std::string sweep_digest();
 
  private:
+  InputError of_sweep(const InputError& error, const std::vector<std::size_t>& choices) const;
   std::string key_of(const std::string& what) const;
   const std::string& text_of(const std::string& file);
 

@@ -101,7 +101,7 @@ class Runner {
     if (known && (known->state == State::done || !options_.retry || retried_.contains(point.key))) {
       found_.emplace_back(number, known->id);
       ++status_.found;
-      if (known->state == State::failed) ++status_.failed;
+      if (known->state == State::failed) count_failed({number}, known->error, point.inputs == nullptr);
       if (found_.size() >= kLinkedAtOnce) link_found();
       return;
     }
@@ -210,8 +210,17 @@ class Runner {
     store_.record(result, sweep_id_, job.numbers);
     if (!result.scene_toml.empty()) scenes_.insert(result.scene_digest);
     ++status_.simulated;
-    if (result.state == State::failed) ++status_.failed;
+    if (result.state == State::failed) count_failed(job.numbers, result.error, job.point.inputs == nullptr);
     if (!checked_ && result.state == State::done) check(expanded(result.report, store_.database().file()));
+  }
+
+  void count_failed(const std::vector<std::uint64_t>& numbers, const std::string& error, bool wrong) {
+    if (status_.failed == 0 || numbers.front() < status_.first_failed) {
+      status_.first_failed = numbers.front();
+      status_.first_error = error;
+    }
+    status_.failed += numbers.size();
+    if (wrong) status_.wrong += numbers.size();
   }
 
   void link_found() {
@@ -226,14 +235,15 @@ class Runner {
     const report::Figures figures(report, store_.database().file());
     Diagnostics diagnostics;
     for (std::size_t i = 0; i < sweep_.objectives.size(); ++i)
-      if (!sweep_.optional[i]) add_absent(figures, sweep_.objectives[i].path, diagnostics);
-    for (const Constraint& constraint : sweep_.constraints) add_absent(figures, constraint.path, diagnostics);
+      if (!sweep_.optional[i]) add_absent(figures, sweep_.objectives[i].path, sweep_.lines[i], diagnostics);
+    for (const Constraint& constraint : sweep_.constraints)
+      add_absent(figures, constraint.path, constraint.line, diagnostics);
     diagnostics.throw_if_any();
   }
 
-  void add_absent(const report::Figures& figures, const std::string& path, Diagnostics& diagnostics) const {
+  void add_absent(const report::Figures& figures, const std::string& path, int line, Diagnostics& diagnostics) const {
     const std::string absent = parameter_of(path).empty() ? figures.absent(path) : "";
-    if (!absent.empty()) diagnostics.add({sweep_.file, 0, path, absent});
+    if (!absent.empty()) diagnostics.add({sweep_.file, line, path, absent});
   }
 
   const Sweep& sweep_;

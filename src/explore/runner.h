@@ -21,12 +21,15 @@ struct RunOptions {
 
 // How far a run is.
 struct RunStatus {
-  std::uint64_t points = 0;     // of the share
-  std::uint64_t found = 0;      // of them, that had their result, or share one
-  std::uint64_t simulated = 0;  // in this run
-  std::uint64_t failed = 0;     // of the found and simulated
-  double seconds = 0.0;         // since the run began
-  int signal = 0;               // that stopped it; 0: none
+  std::uint64_t points = 0;        // of the share
+  std::uint64_t found = 0;         // of them, that had their result, or share one
+  std::uint64_t simulated = 0;     // in this run
+  std::uint64_t failed = 0;        // of the found and simulated
+  std::uint64_t wrong = 0;         // of the failed, whose machine or scene has a bad value
+  std::uint64_t first_failed = 0;  // the point of the lowest number that failed, if any did
+  std::string first_error;         // why
+  double seconds = 0.0;            // since the run began
+  int signal = 0;                  // that stopped it; 0: none
 };
 
 // Simulates what the store lacks of the sweep. SIGINT and SIGTERM stop it, with everything recorded that had come.

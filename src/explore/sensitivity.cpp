@@ -61,7 +61,20 @@ Used used_points(const SweepTable& table, std::size_t objective, ObjectiveSensit
   return used;
 }
 
+bool is_grid(const Used& used) {
+  std::size_t combinations = 1;
+  for (const auto& points : used.points) {
+    combinations *= occurring(points);
+    if (combinations > used.rows.size()) return false;
+  }
+  std::set<std::vector<std::size_t>> seen;
+  for (const Row* row : used.rows) seen.insert(row->values);
+  return seen.size() == combinations && used.rows.size() == combinations;
+}
+
+// One parameter alone is a grid, though no point leaves the baseline in more than it.
 DesignKind design_of(const SweepTable& table, const Used& used) {
+  if (is_grid(used)) return DesignKind::grid;
   if (table.baseline) {
     const auto& base = table.rows.at(*table.baseline).values;
     const bool one = std::ranges::all_of(used.rows, [&](const Row* row) {
@@ -71,14 +84,7 @@ DesignKind design_of(const SweepTable& table, const Used& used) {
     });
     if (one) return DesignKind::one_at_a_time;
   }
-  std::size_t combinations = 1;
-  for (const auto& points : used.points) {
-    combinations *= occurring(points);
-    if (combinations > used.rows.size()) return DesignKind::scattered;
-  }
-  std::set<std::vector<std::size_t>> seen;
-  for (const Row* row : used.rows) seen.insert(row->values);
-  return seen.size() == combinations && used.rows.size() == combinations ? DesignKind::grid : DesignKind::scattered;
+  return DesignKind::scattered;
 }
 
 // Chooses which axes are lines, and numbers the unknowns; number 0 is the mean.

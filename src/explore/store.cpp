@@ -9,6 +9,7 @@
 #include "src/base/errors.h"
 #include "src/explore/figures.h"
 #include "src/report/figure_path.h"
+#include "src/report/text_file.h"
 
 namespace rastertlm::explore {
 namespace {
@@ -54,10 +55,7 @@ std::string with_folders(const std::string& file, Store::Opening opening) {
                                 "is there already: --resume goes on with it and simulates what it lacks; or name "
                                 "another --store"});
   if (std::filesystem::is_directory(file, error)) throw InputError(Diagnostic{file, 0, "", "is a directory"});
-  error.clear();
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  if (opening != Store::Opening::look && !folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error) throw OutputError(fmt::format("cannot write {}: {}", folder.string(), error.message()));
+  if (opening != Store::Opening::look) report::make_folder_of(file);
   return file;
 }
 
@@ -163,9 +161,9 @@ void Store::add_sweep(const Sweep& sweep, const Design& design, const std::strin
 }
 
 std::optional<KnownResult> Store::find(const std::string& key) {
-  Statement& statement = database_.kept("SELECT id, state FROM result WHERE key = ?");
+  Statement& statement = database_.kept("SELECT id, state, error FROM result WHERE key = ?");
   if (!statement.bind(1, key).step()) return std::nullopt;
-  const KnownResult known{statement.integer(0), state_of(statement.text(1))};
+  KnownResult known{statement.integer(0), state_of(statement.text(1)), statement.text(2)};
   statement.reset();
   return known;
 }

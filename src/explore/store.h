@@ -37,6 +37,7 @@ struct PointResult {
 struct KnownResult {
   std::int64_t id = 0;
   State state = State::done;
+  std::string error;  // failed: why
 };
 
 class Store {
@@ -92,9 +93,19 @@ class Store {
   std::int64_t started_ = 0;
 };
 
+// What a joined store still lacks: points without a result, by number, of so many.
+struct Lacking {
+  std::uint64_t points = 0;
+  std::vector<std::uint64_t> missing;
+};
+
+// "2 of 6 points have no result: all of share 3/3"; "" where none is missing. Shares are named where the missing points
+// are whole ones of the fewest shares that tell them from the others; else the first of them is.
+std::string lacking_text(const Lacking& lacking);
+
 // Joins stores of one sweep: `out` is made whole, or not at all. Throws InputError where one of them is of another
 // sweep, holds another result for a configuration, or `out` is there.
-void merge_stores(const std::string& out, const std::vector<std::string>& stores);
+Lacking merge_stores(const std::string& out, const std::vector<std::string>& stores);
 
 // Bytes made smaller, and as they were. Throws InputError where they cannot be had back.
 std::string compressed(const std::string& bytes);

@@ -64,9 +64,10 @@ class Reading {
   }
 
   void rows() {
-    Statement point(database_,
-                    "SELECT number, choices, result.id, state, error, config_digest, picture FROM point LEFT JOIN "
-                    "result ON result.id = point.result WHERE sweep = ? ORDER BY number");
+    Statement point(
+        database_,
+        "SELECT number, choices, result.id, state, error, config_digest, picture, scene_digest FROM point LEFT JOIN "
+        "result ON result.id = point.result WHERE sweep = ? ORDER BY number");
     point.bind(1, id_);
     while (point.step()) {
       Row row;
@@ -77,6 +78,7 @@ class Reading {
         row.state = point.text(3) == "failed" ? State::failed : State::done;
         row.error = point.text(4);
         row.config_digest = point.text(5);
+        row.scene_digest = point.text(7);
         if (row.state == State::done) fill(point.integer(2), row);
         row.thumbnail = picture(point.text(6));
       }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct Vary {
   std::vector<Choice> choices;
   std::optional<Span> span;          // then a design makes the choices
   std::optional<std::size_t> start;  // the choice of the baseline
+  int line = 0;                      // in the sweep's file; 0: of machines and scenes
 };
 
 enum class Comparison { less, at_most, equal, not_equal, at_least, greater };
@@ -43,6 +45,8 @@ struct Constraint {
   std::string path;  // of a figure
   Comparison comparison = Comparison::equal;
   double value = 0.0;
+  bool alone = false;  // written without a comparison: a truth
+  int line = 0;        // in the sweep's file
 };
 
 // Whether a figure meets it; one that is missing does not.
@@ -57,6 +61,7 @@ struct Sweep {
   std::vector<std::string> machines;   // files
   std::vector<std::string> scenes;     // files
   std::vector<config::Override> sets;  // of every point
+  std::set<std::string> asked;         // the parameters of them that --set gave
   Mode mode = Mode::grid;
   std::uint64_t points = 0;  // of random designs
   std::uint64_t seed = 1;
@@ -66,6 +71,7 @@ struct Sweep {
   std::vector<Vary> axes;
   std::vector<Objective> objectives;
   std::vector<bool> optional;  // an objective each: a machine may have no such figure
+  std::vector<int> lines;      // an objective each: in the sweep's file
   std::vector<Constraint> constraints;
   bool baseline = false;  // every axis has a start, and the point of all of them belongs to the sweep
 };

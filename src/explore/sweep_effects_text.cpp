@@ -20,6 +20,9 @@ using report::grouped;
 using report::percent;
 using report::TextTable;
 
+// Of the span: below it a mean is where the figure happens to cancel, and a part of it says nothing.
+constexpr double kLeastMean = 0.1;
+
 std::string value_text(const SweepTable& table, std::size_t axis, std::size_t value) {
   return in_one_line(table.axes[axis].values.at(value));
 }
@@ -28,7 +31,9 @@ std::string estimator_sentence(const ObjectiveSensitivity& s) {
   std::string text;
   switch (s.design) {
     case DesignKind::grid:
-      text = fmt::format("differences of means over all other parameters ({} points, a full grid)", grouped(s.points));
+      text = s.axes.size() == 1 ? fmt::format("differences between its {}", counted(s.points, "point", "points"))
+                                : fmt::format("differences of means over all other parameters ({} points, a full grid)",
+                                              grouped(s.points));
       break;
     case DesignKind::one_at_a_time:
       text = fmt::format("differences from the baseline, one parameter at a time ({} points)", grouped(s.points));
@@ -57,7 +62,7 @@ std::vector<std::string> effect_cells(const SweepTable& table, const std::string
   const bool still = *s.span <= 1e-9 * std::abs(mean);
   return {name,
           shown_figure(still ? 0.0 : *s.span),
-          mean != 0.0 && !still ? percent(*s.span / std::abs(mean)) : "",
+          std::abs(mean) >= kLeastMean * *s.span && !still ? percent(*s.span / std::abs(mean)) : "",
           still ? "" : value_text(table, s.axis, s.least_at),
           still ? "" : value_text(table, s.axis, s.most_at),
           s.share && !still ? percent(*s.share) : "",

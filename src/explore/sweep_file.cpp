@@ -20,6 +20,8 @@ using config::EntryKind;
 
 constexpr std::int64_t kSchema = 1;
 constexpr double kAny = parameter::kAnyReal;
+// Keys that hold values of any parameter, or lists of text: no declaration has them.
+constexpr std::array<const char*, 5> kOurs{"machine", "scene", "constraints", "set", "baseline"};
 constexpr std::int64_t kMostPoints = 1'000'000'000;
 
 parameter::About about(const char* description, bool required = false) {
@@ -47,13 +49,45 @@ std::optional<InVary> in_vary(const std::string& path) {
   return found;
 }
 
-// Keys that hold values of any parameter, or lists of text: no declaration has them.
 bool is_ours(const Entry& entry) {
   const std::string& path = entry.path;
   if (path == "machine" || path == "scene" || path == "constraints") return true;
   if (is_below(path, "set") || is_below(path, "baseline")) return true;
   const std::optional<InVary> vary = in_vary(path);
   return vary && (vary->rest == "values" || vary->rest.starts_with("variant["));
+}
+
+std::string head_of(const std::string& path) { return path.substr(0, path.find_first_of(".[")); }
+
+// All keys of a sweep file at its top: those of the table, and those that no declaration has.
+std::vector<std::string> keys_of(const parameter::Table& table) {
+  std::vector<std::string> keys;
+  for (const auto& parameter : table.parameters()) keys.push_back(parameter.path);
+  for (const auto& list : table.lists()) keys.push_back(list.path);
+  keys.insert(keys.end(), kOurs.begin(), kOurs.end());
+  return keys;
+}
+
+bool is_unknown(const std::string& path, const parameter::Table& table) {
+  const std::vector<std::string> keys = keys_of(table);
+  return std::find(keys.begin(), keys.end(), head_of(path)) == keys.end();
+}
+
+// Of a table that is unknown, once.
+void say_unknown(const config::Document& document, const parameter::Table& table, Diagnostics& diagnostics) {
+  const std::vector<std::string> keys = keys_of(table);
+  std::vector<std::string> said;
+  for (const Entry& entry : document.entries()) {
+    const std::string head = head_of(entry.path);
+    if (!is_unknown(entry.path, table) || std::find(said.begin(), said.end(), head) != said.end()) continue;
+    said.push_back(head);
+    std::string listed;
+    for (const std::string& key : keys) listed += fmt::format("{}'{}'", listed.empty() ? "" : ", ", key);
+    const std::string near = nearest_word(head, keys);
+    diagnostics.add({document.file(), entry.line, config::printable(head),
+                     fmt::format("unknown key '{}'; {}", config::printable(head),
+                                 near.empty() ? "known here: " + listed : fmt::format("nearest known: '{}'", near))});
+  }
 }
 
 // A key that had to be quoted is one path.
@@ -195,7 +229,9 @@ SweepFile read_sweep_file(const std::string& file, Diagnostics& diagnostics) {
   SweepFile sweep;
   if (!config::check_schema(document, kSchema, diagnostics)) diagnostics.throw_if_any();
   parameter::Table table = parameter::view(sweep);
-  const config::Document declared = document.only([](const Entry& entry) { return !is_ours(entry); });
+  say_unknown(document, table, diagnostics);
+  const config::Document declared =
+      document.only([&](const Entry& entry) { return !is_ours(entry) && !is_unknown(entry.path, table); });
   sweep.origins = config::read(declared, table, {}, diagnostics);
   Reading(document, sweep, diagnostics).run();
   if (sweep.machines.empty() && document.find("machine") == nullptr)

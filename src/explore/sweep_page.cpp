@@ -78,6 +78,7 @@ std::string row_json(const SweepTable& table, const Front& front, std::size_t r)
       fmt::format(R"({{"number":{},"state":"{}","values":{},"figures":{})", row.number, state_text(row.state),
                   json_list(row.values, [](auto v) { return std::to_string(v); }), json_list(row.figures, figure_json));
   if (!row.config_digest.empty()) json += R"(,"digest":)" + json_string(row.config_digest.substr(0, kDigestDigits));
+  if (!row.scene_digest.empty()) json += R"(,"scene":)" + json_string(row.scene_digest.substr(0, kDigestDigits));
   if (!row.allowed) json += R"(,"allowed":false)";
   if (!row.error.empty()) json += R"(,"error":)" + json_string(row.error);
   if (front.has(r)) json += R"(,"front":true)";

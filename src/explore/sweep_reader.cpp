@@ -103,6 +103,7 @@ class Checking {
       if (!result.mistake.empty()) diagnostics_.add({"--set", 0, override.path, result.mistake});
       std::erase_if(sweep_.sets, [&](const config::Override& set) { return set.path == override.path; });
       sweep_.sets.push_back(override);
+      sweep_.asked.insert(override.path);
     }
     return diagnostics_.list().size() == before;
   }
@@ -114,7 +115,7 @@ class Checking {
   void add_files(const char* path, Vary::What what, const std::vector<std::string>& files,
                  const std::vector<Word>& words) {
     if (files.size() < 2) return;
-    Vary axis{what, path, "", {}, std::nullopt, 0};
+    Vary axis{what, path, "", {}, std::nullopt, 0, 0};
     for (std::size_t i = 0; i < files.size(); ++i) {
       const std::string name = std::filesystem::path(files[i]).stem().string();
       if (has(axis, name)) add(words[i].line, path, fmt::format("'{}' stands there twice", name));
@@ -149,7 +150,7 @@ class Checking {
   }
 
   void group(const VaryFile& vary, const std::string& key) {
-    Vary axis{Vary::What::parameter, vary.name, "", {}, std::nullopt, std::nullopt};
+    Vary axis{Vary::What::parameter, vary.name, "", {}, std::nullopt, std::nullopt, vary.line};
     for (std::size_t i = 0; i < vary.variants.size(); ++i) {
       const Variant& variant = vary.variants[i];
       const std::string place = fmt::format("{}.variant[{}]", key, i);
@@ -172,7 +173,7 @@ class Checking {
   void parameter(const VaryFile& vary, const std::string& key) {
     const Settable::Checked known = checked(bases_, vary.path, nullptr);
     if (!known.mistake.empty()) return add(file_.line_of(key + ".path"), key + ".path", known.mistake);
-    Vary axis{Vary::What::parameter, vary.path, known.unit, {}, std::nullopt, std::nullopt};
+    Vary axis{Vary::What::parameter, vary.path, known.unit, {}, std::nullopt, std::nullopt, vary.line};
     std::vector<config::Raw> values = vary.values;
     int line = file_.line_of(key + ".path");
     if (!vary.has_values) {
@@ -248,22 +249,44 @@ class Checking {
       if (!mistake.empty()) add(file_.line_of(key), key, mistake);
       sweep_.objectives.push_back({objective.path, figure_unit(objective.path), objective.sense});
       sweep_.optional.push_back(objective.optional);
+      sweep_.lines.push_back(file_.line_of(key));
     }
     if (file_.objectives.empty()) add(0, "objective", "nothing counts: give an [[objective]]");
     for (const Word& word : file_.constraints) {
       auto parsed = parse_constraint(word.text);
       if (const auto* mistake = std::get_if<std::string>(&parsed)) add(word.line, "constraints", *mistake);
-      if (const auto* constraint = std::get_if<Constraint>(&parsed)) {
-        if (const std::string wrong = figure_mistake(constraint->path); !wrong.empty())
-          add(word.line, "constraints", wrong);
-        sweep_.constraints.push_back(*constraint);
+      if (auto* constraint = std::get_if<Constraint>(&parsed)) {
+        std::string wrong = figure_mistake(constraint->path);
+        if (wrong.empty() && constraint->alone && !is_truth(constraint->path))
+          wrong = fmt::format("'{}' is no truth that could stand alone: compare it, as in '{} >= 1'", constraint->path,
+                              constraint->path);
+        if (!wrong.empty()) add(word.line, "constraints", wrong);
+        constraint->line = word.line;
+        sweep_.constraints.push_back(std::move(*constraint));
       }
     }
   }
 
   std::string figure_mistake(const std::string& path) {
     const std::string parameter = parameter_of(path);
-    return parameter.empty() ? report::figure_mistake(path) : checked(plain_, parameter, nullptr).mistake;
+    if (!parameter.empty()) return number_mistake(path, checked(plain_, parameter, nullptr));
+    std::string mistake = report::figure_mistake(path);
+    if (mistake.empty() && !sweep_.reference && report::is_error_figure(path))
+      return fmt::format("'{}' cannot be had: with reference = false no error is measured", path);
+    return mistake;
+  }
+  static std::string number_mistake(const std::string& path, const Settable::Checked& known) {
+    if (!known.mistake.empty() || known.integer) return known.mistake;
+    const std::optional<config::Raw> raw = config::parse_value(known.standing);
+    const bool number = raw && (std::holds_alternative<std::int64_t>(raw->value) ||
+                                std::holds_alternative<double>(raw->value) || std::holds_alternative<bool>(raw->value));
+    return number ? "" : fmt::format("'{}' is no number and no truth: it cannot be compared", path);
+  }
+  bool is_truth(const std::string& path) {
+    const std::string parameter = parameter_of(path);
+    if (parameter.empty()) return report::is_truth_figure(path);
+    const std::string standing = checked(plain_, parameter, nullptr).standing;
+    return standing == "true" || standing == "false";
   }
   std::string figure_unit(const std::string& path) {
     const std::string parameter = parameter_of(path);
@@ -304,9 +327,11 @@ class Checking {
   }
 
   void baseline() {
+    std::set<std::string> given;  // what is wrong with them has been said
     for (const Setting& setting : file_.baseline) {
       Vary* axis = axis_named(setting.path);
       if (axis != nullptr) {
+        given.insert(axis->path);
         start_at(*axis, setting);
         continue;
       }
@@ -321,6 +346,7 @@ class Checking {
     for (Vary& axis : sweep_.axes) {
       if (axis.start) continue;
       whole = false;
+      if (given.contains(axis.path)) continue;
       if (wanted) whole = standing_start(axis);
       if (wanted && !whole)
         add(0, "baseline",

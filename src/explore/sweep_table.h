@@ -36,6 +36,7 @@ struct Row {
   bool allowed = true;                  // every constraint is met; only such points are on the front
   std::string error;                    // failed: why
   std::string config_digest;            // of the resolved machine
+  std::string scene_digest;             // of the resolved scene
   std::vector<std::uint8_t> thumbnail;  // PNG, 64 x 64; empty: none kept
 };
 

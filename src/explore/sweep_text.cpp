@@ -61,6 +61,13 @@ std::string constraints_text(const SweepTable& table) {
   return text;
 }
 
+// Which of several constraints a point breaks the table does not know.
+std::string broken_text(const SweepTable& table, const Row& row) {
+  if (row.allowed) return "";
+  return fmt::format(", which does not meet {}{}", table.constraints.size() > 1 ? "all of " : "",
+                     constraints_text(table));
+}
+
 std::string counts_sentence(const SweepTable& table, const Front& front) {
   std::size_t failed = 0;
   std::size_t waiting = 0;
@@ -128,7 +135,8 @@ std::string answer_section(const SweepTable& table, const Front& front) {
   text += ".\n";
   if (table.baseline && *table.baseline == *answer) text += "That is the baseline.\n";
   if (table.baseline && *table.baseline != *answer && table.rows[*table.baseline].state == State::done)
-    text += fmt::format("Against the baseline (point {}): {}.\n", table.rows[*table.baseline].number,
+    text += fmt::format("Against the baseline (point {}{}): {}.\n", table.rows[*table.baseline].number,
+                        broken_text(table, table.rows[*table.baseline]),
                         difference_text(table, names, row, table.rows[*table.baseline]));
   return text + counts_sentence(table, front);
 }

@@ -108,7 +108,7 @@ std::string table_csv(const SweepTable& table, const Front& front) {
   std::string text = "point,state,allowed,baseline,front,beaten_by";
   for (const Axis& axis : table.axes) text += ',' + csv_cell(with_unit(axis.path, axis.unit));
   for (const Objective& objective : table.objectives) text += ',' + csv_cell(with_unit(objective.path, objective.unit));
-  text += ",config_digest,error\n";
+  text += ",config_digest,scene_digest,error\n";
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Row& row = table.rows[i];
     const char* state = row.state == State::done ? "done" : row.state == State::failed ? "failed" : "waiting";
@@ -120,7 +120,7 @@ std::string table_csv(const SweepTable& table, const Front& front) {
       text += ',' + csv_cell(table.axes[axis].values.at(row.values.at(axis)));
     for (const std::optional<double>& figure : row.figures)
       text += figure ? fmt::format(",{:.9g}", *figure) : std::string(",");
-    text += fmt::format(",{},{}\n", row.config_digest, csv_cell(without_breaks(row.error)));
+    text += fmt::format(",{},{},{}\n", row.config_digest, row.scene_digest, csv_cell(without_breaks(row.error)));
   }
   return text;
 }

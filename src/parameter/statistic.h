@@ -7,11 +7,14 @@ namespace rastertlm::parameter {
 
 enum class StatisticKind { count, formula, setting };
 
+enum class StatisticValue { number, truth, text, table };
+
 struct Statistic {
   std::string name;  // path in report.json: "links[].utilisation"
   std::string unit;  // "" where it has none
   StatisticKind kind = StatisticKind::count;
   std::string description;  // one sentence; a formula says its formula
+  StatisticValue value = StatisticValue::number;
 };
 
 }  // namespace rastertlm::parameter

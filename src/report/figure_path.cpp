@@ -19,6 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kMostNamed = 40;  // elements, in a message
 constexpr const char* kOwnUnit = "as unit says";
 constexpr std::array<const char*, 2> kNames{"name", "reference"};  // keys that elements are named by
 
@@ -103,6 +104,14 @@ std::string name_of(const Path& path) {
 const std::vector<parameter::Statistic>& known_figures() {
   static const std::vector<parameter::Statistic> figures = statistics();
   return figures;
+}
+
+using parameter::StatisticValue;
+
+StatisticValue type_of(const std::string& name) {
+  for (const parameter::Statistic& figure : known_figures())
+    if (figure.name == name) return figure.value;
+  return StatisticValue::number;
 }
 
 std::optional<std::size_t> index_of(const std::string& text) {
@@ -251,6 +260,9 @@ std::string figure_mistake(const std::string& text) {
     return fmt::format("unknown figure '{}'; {}", text,
                        near.empty() ? "`describe statistics` lists them all" : fmt::format("nearest: '{}'", near));
   }
+  if (type_of(name) == StatisticValue::text || type_of(name) == StatisticValue::table)
+    return fmt::format("'{}' is {}, no number: it cannot be compared", text,
+                       type_of(name) == StatisticValue::text ? "text" : "a table");
   const bool all = std::any_of(path->steps.begin(), path->steps.end(), [](const Step& step) {
     return step.selects && (step.selector.empty() || step.selector.find('=') != std::string::npos);
   });
@@ -260,6 +272,16 @@ std::string figure_mistake(const std::string& text) {
         "max({0})",
         text);
   return {};
+}
+
+bool is_truth_figure(const std::string& text) {
+  const std::optional<Path> path = path_of(text);
+  return path && path->fold == Fold::none && type_of(name_of(*path)) == StatisticValue::truth;
+}
+
+bool is_error_figure(const std::string& text) {
+  const std::optional<Path> path = path_of(text);
+  return path && name_of(*path).starts_with("images[].error");
 }
 
 std::string figure_unit(const std::string& text) {
@@ -313,7 +335,10 @@ std::string Figures::absent(const std::string& text) const {
       return fmt::format("the machine's report has no '{}' where '{}' wants it", missing.step->key, text);
     const std::vector<std::string> names = names_in(*missing.within);
     const std::string near = nearest_word(missing.step->selector, names);
-    return fmt::format("the machine's report has no {}[{}]{}", missing.step->key, missing.step->selector,
+    std::string known;
+    for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
+      known += fmt::format("{}'{}'", known.empty() ? "; known: " : ", ", names[i]);
+    return fmt::format("the machine's report has no {}[{}]{}{}", missing.step->key, missing.step->selector, known,
                        near.empty() ? "" : fmt::format("; nearest: '{}'", near));
   }
   for (const Reached& one : found)

@@ -20,6 +20,10 @@ namespace rastertlm::report {
 // Names of elements depend on the machine: see Figures::absent().
 std::string figure_mistake(const std::string& text);
 
+// Of a path without figure_mistake(): whether it is true or false, and whether it is measured against a reference.
+bool is_truth_figure(const std::string& text);
+bool is_error_figure(const std::string& text);
+
 // The unit that the figure always has; "" where it has none, or where each element of the list names its own.
 std::string figure_unit(const std::string& text);
 

@@ -1,10 +1,24 @@
 #include "src/report/statistics.h"
 
+#include <optional>
+#include <string_view>
+#include <type_traits>
+
 #include "src/report/schema.h"
 #include "src/report/text_table.h"
 
 namespace rastertlm::report {
 namespace {
+
+using parameter::StatisticValue;
+
+template <class T>
+constexpr StatisticValue type_of() {
+  if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::optional<bool>>) return StatisticValue::truth;
+  if constexpr (std::is_convertible_v<T, std::string_view> || std::is_same_v<T, std::optional<std::string>>)
+    return StatisticValue::text;
+  return StatisticValue::number;
+}
 
 class Describer {
  public:
@@ -12,7 +26,7 @@ class Describer {
 
   template <class T>
   void value(const char* key, const Field& field, const T&) {
-    add(key, field);
+    add(key, field, type_of<T>());
   }
   template <class T>
   void metric(const char* key, const Field& field, const T&) {
@@ -20,10 +34,10 @@ class Describer {
   }
   template <class T>
   void derived(const char* key, const Field& field, const T&) {
-    add(key, field);
+    add(key, field, type_of<T>());
   }
   void texts(const char* key, const Field& field, const std::vector<std::string>&) {
-    add(std::string(key) + "[]", field);
+    add(std::string(key) + "[]", field, StatisticValue::text);
   }
   void integers(const char* key, const Field& field, const std::vector<std::int64_t>&) {
     add(std::string(key) + "[]", field);
@@ -42,7 +56,7 @@ class Describer {
   // What follows from others of the file is described there.
   template <class T, class Inside>
   void derived_object(const char* key, const char* description, T*, const Inside& inside) {
-    add(key, {"", parameter::StatisticKind::formula, description});
+    add(key, {"", parameter::StatisticKind::formula, description}, StatisticValue::table);
     T element{};
     Describer describer(path_ + key + '.', found_);
     inside(describer, element);
@@ -53,8 +67,8 @@ class Describer {
   }
 
  private:
-  void add(const std::string& key, const Field& field) {
-    found_.push_back({path_ + key, field.unit, field.kind, field.description});
+  void add(const std::string& key, const Field& field, StatisticValue value = StatisticValue::number) {
+    found_.push_back({path_ + key, field.unit, field.kind, field.description, value});
   }
   std::string path_;
   std::vector<parameter::Statistic>& found_;

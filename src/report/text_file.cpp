@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "src/base/errors.h"
 
@@ -62,6 +63,13 @@ void write_text_file(const std::string& path, const std::string& text) {
   Descriptor file(open_to_write(path));
   write_all(file.number(), text, path);
   if (file.close() != 0) throw OutputError(output_message(path, errno));
+}
+
+void make_folder_of(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw OutputError(fmt::format("cannot write {}: {}", folder.string(), error.message()));
 }
 
 void write_whole_file(const std::string& path, const std::string& text) {

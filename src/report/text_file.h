@@ -16,6 +16,9 @@ void write_text_file(const std::string& path, const std::string& text);
 // The same, but the file is there as a whole or stays as it was: it is written beside its place, and put there.
 void write_whole_file(const std::string& path, const std::string& text);
 
+// Makes the folders above the file that are not there. Throws OutputError.
+void make_folder_of(const std::string& path);
+
 // A file that is written piece by piece through a buffer, with the digest of its bytes. It is whole when close() has
 // returned.
 class TextFileWriter {

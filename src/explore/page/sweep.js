@@ -170,7 +170,7 @@ function showChosen() {
       table(['objective', '>figure', 'unit', 'wanted'], page.objectives.map((objective, k) =>
           [{text: objective.path, class: 'code'}, figureText(figureOf(row, k)), objective.unit, objective.most ? 'most' : 'least'])),
       note([row.error, row.front ? 'No point beats it.' : '', row.beaten_by === undefined ? '' : `Point ${row.beaten_by} beats it.`,
-        row.met ? '' : 'It breaks a constraint.', row.digest === undefined ? '' : `Configuration ${row.digest}...`].filter(Boolean).join(' ')));
+        row.met ? '' : 'It breaks a constraint.', row.digest === undefined ? '' : `Machine ${row.digest}..., scene ${row.scene}...`].filter(Boolean).join(' ')));
 }
 
 function boxesOf(axis, k) {

@@ -83,11 +83,39 @@ TEST_F(ShowTest, KeepsTheFrontInTheStore) {
   EXPECT_EQ(kept_front(in_work("joined.sqlite")), expected);
 }
 
+// Where only the scene differs, only its digest tells points apart.
+TEST_F(ShowTest, TellsScenesApart) {
+  write("other.toml", one_triangle() +
+                          "[[object.animation]]\ntype = \"spin\"\naxis = [0.0, 0.0, 1.0]\n"
+                          "deg_per_frame = 9.0\n");
+  std::string text = sweep("");
+  text.replace(text.find("\"scene.toml\""), 12, "[\"scene.toml\", \"other.toml\"]");
+  write("scenes.toml", text);
+  ASSERT_EQ(run({"explore", "run", "scenes.toml", "--store", "scenes.sqlite"}).exit_code, 0);
+  const explore::SweepTable found = table("scenes.sqlite");
+  ASSERT_EQ(found.rows.size(), 2U);
+  EXPECT_EQ(found.rows[0].config_digest, found.rows[1].config_digest);
+  EXPECT_NE(found.rows[0].scene_digest, found.rows[1].scene_digest);
+  const std::string csv = run({"explore", "show", "scenes.sqlite", "--csv"}).out;
+  // A page may be put where there is no folder yet, as a store may.
+  ASSERT_EQ(run({"explore", "show", "scenes.sqlite", "--html", "new/folder/page.html"}).exit_code, 0);
+  const std::string page = file_text(in_work("new/folder/page.html"));
+  for (const explore::Row& row : found.rows) {
+    EXPECT_THAT(csv, HasSubstr(row.config_digest + ',' + row.scene_digest));
+    EXPECT_THAT(page, HasSubstr("\"scene\":\"" + row.scene_digest.substr(0, 12)));
+  }
+}
+
 TEST_F(ShowTest, RefusesPointsThatHaveNoFigures) {
   const Outcome none = run({"explore", "show", "s.sqlite", "--point", "6"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.err, HasSubstr("s.sqlite: --point: 6 is no point of the sweep, which has 6"));
-  EXPECT_EQ(run({"explore", "show", "s.sqlite", "--tolerance", "-1"}).exit_code, 2);
+  for (const char* tolerance : {"-1", "nan", "inf", "1.5", "-nan", "a lot"}) {
+    const Outcome outcome = run({"explore", "show", "s.sqlite", "--tolerance", tolerance});
+    EXPECT_EQ(outcome.exit_code, 2) << tolerance;
+    EXPECT_THAT(outcome.err, HasSubstr("is not a number from 0 to 1")) << tolerance;
+  }
+  for (const char* rows : {"0", "-1"}) EXPECT_EQ(run({"explore", "show", "s.sqlite", "--rows", rows}).exit_code, 2);
   EXPECT_EQ(run({"explore", "show", "s.sqlite", "--csv", "--list"}).exit_code, 2);
   ASSERT_EQ(run({"explore", "run", "sweep.toml", "--store", "half.sqlite", "--shard", "1/2"}).exit_code, 0);
   const Outcome waiting = run({"explore", "show", "half.sqlite", "--point", "1"});

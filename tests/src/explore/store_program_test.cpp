@@ -8,8 +8,10 @@
 namespace rastertlm::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 using StoreTest = ExploreTest;
 
@@ -84,8 +86,11 @@ TEST_F(StoreTest, JobsAndSharesDoNotMatter) {
   }
   const Outcome merged = run({"explore", "merge", "joined.sqlite", "part1.sqlite", "part2.sqlite", "part3.sqlite"});
   ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_THAT(merged.out, Not(HasSubstr("no result")));
   EXPECT_TRUE(results("joined.sqlite") == results());
   EXPECT_EQ(run({"explore", "show", "joined.sqlite", "--csv"}).out, run({"explore", "show", "s.sqlite", "--csv"}).out);
+  EXPECT_THAT(run({"explore", "merge", "two.sqlite", "part1.sqlite", "part2.sqlite"}).out,
+              HasSubstr("2 of 8 points have no result: all of share 3/3; `explore run --resume`"));
   EXPECT_EQ(names().count("joined.sqlite-wal") + names().count("joined.sqlite.lock"), 0U);
 }
 
@@ -93,7 +98,9 @@ TEST_F(StoreTest, AFailingPointIsKeptAndStopsNothing) {
   write("sweep.toml", sweep("[[vary]]\npath = \"host.processors_per_unit\"\nvalues = [1, 8]\n"
                             "[[vary]]\npath = \"object_processor.word_bits\"\nvalues = [8, 24]\n"));
   const Outcome outcome = run(run_sweep());
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("point 0 failed: "), HasSubstr("; so did 1 other point"),
+                                 HasSubstr("sweep.toml:7: object_processor.word_bits: "), Not(HasSubstr("--set"))));
   const explore::SweepTable table = this->table();
   ASSERT_EQ(table.rows.size(), 4U);
   for (const explore::Row& row : table.rows) {
@@ -102,6 +109,27 @@ TEST_F(StoreTest, AFailingPointIsKeptAndStopsNothing) {
     EXPECT_EQ(row.error.empty(), !narrow);
     EXPECT_EQ(row.allowed, !narrow);
   }
+  // The user's own --set is named as such; where all points have a bad value the input is bad, again from the store.
+  write("sweep.toml", sweep("[[vary]]\npath = \"host.processors_per_unit\"\nvalues = [1, 8]\n"));
+  for (const bool again : {false, true}) {
+    std::vector<std::string> more{"--store", "bad.sqlite", "--set", "object_processor.word_bits=8"};
+    if (again) more.emplace_back("--resume");
+    std::vector<std::string> arguments{"explore", "run", "sweep.toml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome all = run(arguments);
+    EXPECT_EQ(all.exit_code, 2);
+    EXPECT_THAT(all.err, AllOf(HasSubstr("point 0 failed: "), HasSubstr("--set: object_processor.word_bits: ")));
+  }
+}
+
+// Two of three shares: every third point is missing. A share in part: the first point is named.
+TEST(Lacking, NamesTheSharesThatAreMissing) {
+  EXPECT_EQ(explore::lacking_text({6, {}}), "");
+  EXPECT_EQ(explore::lacking_text({81, {2,  5,  8,  11, 14, 17, 20, 23, 26, 29, 32, 35, 38, 41,
+                                        44, 47, 50, 53, 56, 59, 62, 65, 68, 71, 74, 77, 80}}),
+            "27 of 81 points have no result: all of share 3/3");
+  EXPECT_EQ(explore::lacking_text({12, {1, 3, 5, 7, 9, 11}}), "6 of 12 points have no result: all of share 2/2");
+  EXPECT_EQ(explore::lacking_text({12, {4}}), "1 of 12 points has no result: the first is point 4");
 }
 
 // A worker that is killed is a failed point; the others go on, and it can be tried again.
@@ -116,7 +144,7 @@ TEST_F(StoreTest, AWorkerThatDiesIsAFailedPointThatIsTriedAgain) {
     return kills >= 6;
   }));
   const Outcome outcome = wait_for(explorer);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;  // not all that was wanted is there
   std::size_t failed = 0;
   for (const explore::Row& row : table().rows) {
     EXPECT_NE(row.state, explore::State::waiting);
@@ -291,8 +319,9 @@ TEST_F(StoreTest, AFigureThatNoReportHasStopsTheSweep) {
   write("sweep.toml", grid(30) + "[[objective]]\npath = \"budgets[line_strat].used\"\nsense = \"minimise\"\n");
   const Outcome outcome = run(run_sweep());
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("sweep.toml: budgets[line_strat].used: the machine's report has no "
-                                     "budgets[line_strat]; nearest: 'line_start'"));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("sweep.toml:19: budgets[line_strat].used: the machine's report has no "
+                                           "budgets[line_strat]; known: 'line_start', "),
+                                 HasSubstr("; nearest: 'line_start'")));
   // What had come is kept, and serves the sweep that is right; so does a figure that was not asked for then.
   const std::size_t kept = results().size();
   EXPECT_GT(kept, 0U);

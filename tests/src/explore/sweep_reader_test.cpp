@@ -239,6 +239,56 @@ TEST_F(SweepTest, SaysEverythingThatIsWrongAtOnce) {
                           HasSubstr("'most' is not accepted")));
 }
 
+TEST_F(SweepTest, NamesTheNearestOfAllKeysOfASweep) {
+  const std::string good = vary(kUnits, "values = [1, 2]");
+  EXPECT_THAT(mistake("contraints = [\"answer.sustained\"]\n" + good),
+              HasSubstr("sweep.toml:4: contraints: unknown key 'contraints'; nearest known: 'constraints'"));
+  EXPECT_THAT(mistake("foo = 3\n" + good),
+              AllOf(HasSubstr("sweep.toml:4: foo: unknown key 'foo'; known here: "), HasSubstr("'machine'"),
+                    HasSubstr("'scene'"), HasSubstr("'constraints'"), HasSubstr("'set'"), HasSubstr("'baseline'"),
+                    HasSubstr("'objective'")));
+  EXPECT_THAT(mistake(good + "[basline]\nx = 1\n"), HasSubstr("nearest known: 'baseline'"));
+}
+
+TEST_F(SweepTest, RefusesFiguresThatCannotBeCompared) {
+  const std::string good = vary(kUnits, "values = [1, 2]");
+  const auto wants = [](const std::string& path) {
+    return fmt::format("[[objective]]\npath = \"{}\"\nsense = \"maximise\"\n", path);
+  };
+  EXPECT_THAT(mistake(good, wants("answer.bottleneck.unit")),
+              HasSubstr("sweep.toml:8: objective[0].path: 'answer.bottleneck.unit' is text, no number"));
+  EXPECT_THAT(mistake(good, wants("images[0].error")), HasSubstr("is a table, no number"));
+  EXPECT_THAT(mistake(good, wants("machine.host.preset")), HasSubstr("'machine.host.preset' is no number"));
+  EXPECT_EQ(mistake(good, wants("answer.sustained")), "");
+  EXPECT_THAT(mistake("reference = false\n" + good, wants("max(images[].error.rmse_level)")),
+              HasSubstr("with reference = false no error is measured"));
+  EXPECT_THAT(mistake("constraints = [\"answer.headroom\"]\n" + good),
+              HasSubstr("sweep.toml:4: constraints: 'answer.headroom' is no truth that could stand alone"));
+  EXPECT_EQ(mistake("constraints = [\"answer.sustained\", \"answer.headroom > 0\"]\n" + good), "");
+  EXPECT_THAT(mistake("constraints = [\"answer.bottleneck.unit = 1\"]\n" + good), HasSubstr("is text, no number"));
+}
+
+// Once, and not also that the axis has no start.
+TEST_F(SweepTest, SaysOnceWhatIsWrongWithABaseline) {
+  const std::string said = mistake(vary(kUnits, "values = [2, 4]") + "[baseline]\n\"host.computation_units\" = 3\n");
+  EXPECT_THAT(said, HasSubstr("3 is not among the values that vary: 2, 4"));
+  EXPECT_THAT(said, testing::Not(HasSubstr("has no value for")));
+}
+
+TEST_F(SweepTest, SaysHowElementsAreWrittenAndWhatIsTooLarge) {
+  const auto set = [&](const std::string& argument) {
+    try {
+      read_sweep(written(vary(kUnits, "values = [1, 2]")), {argument});
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_THAT(set("object.0.segments=3"), HasSubstr("an element of a list is written 'object[0].segments'"));
+  EXPECT_THAT(set("host.processors_per_unit=99999999999999999999"),
+              HasSubstr("99999999999999999999 is out of range: it does not fit 64 bits"));
+}
+
 TEST_F(SweepTest, NamesMachinesAndScenesThatAreNotThere) {
   const std::string file = folder_ + "/lost.toml";
   std::ofstream(file) << "schema = 1\nmachine = \"none.toml\"\nscene = \"nor_this.toml\"\n" << kObjective;

@@ -112,6 +112,31 @@ TEST(SweepText, OrdersParametersByHowFarTheyMove) {
   EXPECT_LT(text.find("computation_units"), text.find("topology"));
 }
 
+TEST(SweepText, SaysThatTheBaselineBreaksAConstraint) {
+  SweepTable table = question_table();
+  ASSERT_EQ(answer_section(table, find_front(table)).find("which does not meet"), std::string::npos);
+  table.constraints = {"answer.sustained"};
+  table.rows.at(*table.baseline).allowed = false;
+  EXPECT_NE(answer_section(table, find_front(table)).find("(point 4, which does not meet answer.sustained): "),
+            std::string::npos);
+}
+
+// -1 to 2 around a mean of 0.01 is no 30,000 % of anything; 1, 2 and 6 move by 5, of a mean of 3.
+TEST(SweepText, LeavesOutPartsOfAMeanThatCancels) {
+  const auto cells = [](const Figures& figures) {
+    SweepTable table;
+    table.axes = {axis_of("host.computation_units", {"1", "2", "4"})};
+    table.objectives = {objective_of("answer.headroom", Sense::maximise)};
+    for (std::size_t v = 0; v < figures.size(); ++v) add_row(table, {v}, {figures[v]});
+    table.baseline = 0;  // a grid of one parameter, no way around it
+    const std::string text = sensitivity_section(table, find_sensitivity(table));
+    EXPECT_NE(text.find("differences between its 3 points"), std::string::npos) << text;
+    return words_after(text, "computation_units");
+  };
+  EXPECT_EQ(cells({-1.0, -0.97, 2.0}), (Fields{"3", "1", "4", "100", "%"}));
+  EXPECT_EQ(cells({1.0, 2.0, 6.0}), (Fields{"5", "167", "%", "1", "4", "100", "%"}));
+}
+
 TEST(SweepText, TellsTheBestSteps) {
   const SweepTable table = question_table();
   const std::string text = what_if_section(table, find_what_if(table, 4), 0.0);
@@ -168,7 +193,7 @@ RC_GTEST_PROP(SweepCsv, IsReadAgain, ()) {
   RC_ASSERT(rows.size() == table.rows.size() + 1);
   RC_ASSERT(rows[0] == (Fields{"point", "state", "allowed", "baseline", "front", "beaten_by", "host.computation_units",
                                "decision_unit.topology", "memories[all].total_bits (bits)", "answer.frame_rate_hz (Hz)",
-                               "config_digest", "error"}));
+                               "config_digest", "scene_digest", "error"}));
   std::ranges::replace(table.rows[1].error, '\n', ' ');
   RC_ASSERT(rows[2].back() == table.rows[1].error);
   RC_ASSERT(rows[2][7] == table.axes[1].values[1]);
