@@ -51,8 +51,8 @@ void refuse_too_many(const explore::Sweep& sweep, const explore::Design& design,
 
 // Why points failed: the first of them, and how many others did.
 std::string failure_text(const RunStatus& status) {
-  std::string error = status.first_error;
-  std::replace(error.begin(), error.end(), '\n', ' ');
+  std::string error;
+  for (const char c : status.first_error) error += c == '\n' ? std::string("; ") : std::string(1, c);
   const std::uint64_t others = status.failed - 1;
   return fmt::format("rastertlm: point {} failed: {}{}\n", status.first_failed, error,
                      others == 0 ? std::string()
@@ -184,7 +184,7 @@ ExitCode ExploreCommand::merge() {
   const std::string lacking = explore::lacking_text(explore::merge_stores(store_, parts_));
   std::fputs(fmt::format("{}: {} joined\n", store_, report::counted(parts_.size(), "store", "stores")).c_str(), stdout);
   if (!lacking.empty())
-    std::fputs(fmt::format("{}; `explore run --resume` on it simulates them\n", lacking).c_str(), stdout);
+    std::fputs(fmt::format("{}; `explore run --resume` with this store goes on\n", lacking).c_str(), stdout);
   return ExitCode::kDone;
 }
 

@@ -17,6 +17,8 @@ class TimelineTest : public ProgramTest {
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run(arguments);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    // Of what was asked for the name is said.
+    EXPECT_EQ(outcome.out.find(", timeline.json\n") != std::string::npos, !more.empty()) << outcome.out;
   }
   void expect_good_timeline(const std::vector<std::string>& lines = {}) const {
     std::vector<std::string> arguments{in_work("o")};

@@ -90,7 +90,7 @@ TEST_F(StoreTest, JobsAndSharesDoNotMatter) {
   EXPECT_TRUE(results("joined.sqlite") == results());
   EXPECT_EQ(run({"explore", "show", "joined.sqlite", "--csv"}).out, run({"explore", "show", "s.sqlite", "--csv"}).out);
   EXPECT_THAT(run({"explore", "merge", "two.sqlite", "part1.sqlite", "part2.sqlite"}).out,
-              HasSubstr("2 of 8 points have no result: all of share 3/3; `explore run --resume`"));
+              HasSubstr("2 of 8 points have no result: all of share 3/3; `explore run --resume` with"));
   EXPECT_EQ(names().count("joined.sqlite-wal") + names().count("joined.sqlite.lock"), 0U);
 }
 
