@@ -263,6 +263,11 @@ void visit_highlight(Visitor& v, run::HighlightFigures& h) {
   v.value("highlights_unfound", {"triangles", kCount, "where the search had no answer"}, h.unfound);
   v.value("parts_at_limit", {"triangles", kCount, "not cut further, although larger or further off than the threshold"},
           h.at_limit);
+  v.value("true_highlight_centres",
+          {"centres", kCount, "found by a search of every triangle, a light; needs references"}, h.true_centres);
+  v.metric("highlight_recall",
+           {"", kFormula, "share of true centres in triangles that may hold one; null: there is none"}, h.recall);
+  v.metric("highlight_precision", {"", kFormula, "share of triangles that may hold a centre, that do"}, h.precision);
 }
 
 template <class Visitor>

@@ -207,6 +207,11 @@ std::string pictures_section(const run::Result& result) {
     if (f.highlight.tested > 0) {
       add("may hold a highlight", f.highlight.potentially, "triangles");
       add("lie beside one that may", f.highlight.neighbours, "triangles");
+      if (f.highlight.recall)
+        table.row({"hold a true centre of a highlight, of those that may",
+                   fmt::format("{:.3g}", 100.0 * f.highlight.precision.value_or(0.0)), "%"});
+      if (f.highlight.recall)
+        table.row({"true centres in such triangles", fmt::format("{:.4g}", 100.0 * *f.highlight.recall), "%"});
       add("cut up, of these", f.highlight.divided, "triangles");
       add("parts of them", f.highlight.parts, "triangles");
     }

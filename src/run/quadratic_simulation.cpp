@@ -14,6 +14,7 @@
 #include "src/reference/sphere_renderer.h"
 #include "src/run/drawing_limits.h"
 #include "src/run/exact_pictures.h"
+#include "src/run/highlight_recall.h"
 #include "src/run/host_figures.h"
 #include "src/run/inputs.h"
 #include "src/run/quadratic_budgets.h"
@@ -72,7 +73,10 @@ FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown
                  cut.centres,
                  cut.beside,
                  cut.unfound,
-                 cut.at_limit};
+                 cut.at_limit,
+                 0,
+                 {},
+                 {}};
   return f;
 }
 
@@ -138,7 +142,10 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
     if (result.frames.size() >= options.frames) return;
     const auto entered = std::chrono::steady_clock::now();
     FrameFigures figures = figures_of(result.frames.size(), shown, pixels, static_cast<int>(machine.set_up.snap_bits));
-    if (options.reference) figures.errors = exact.errors(shown.set_up.pose, shown.set_up.animation_frame, pixels);
+    if (options.reference) {
+      figures.errors = exact.errors(shown.set_up.pose, shown.set_up.animation_frame, pixels);
+      add_highlight_recall(machine, scene, shown.set_up.pose, figures.highlight);
+    }
     if (sink) sink({pixels, options.reference ? &exact.ideal() : nullptr, figures});
     result.frames.push_back(std::move(figures));
     outside += std::chrono::steady_clock::now() - entered;

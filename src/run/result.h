@@ -166,6 +166,10 @@ struct HighlightFigures {
   std::uint64_t beside = 0;       // found outside
   std::uint64_t unfound = 0;
   std::uint64_t at_limit = 0;  // not cut further, and larger or further off than the threshold
+  // Against a search of every triangle, a light; where references are made.
+  std::uint64_t true_centres = 0;
+  std::optional<double> recall;     // share of them in triangles that may hold one; none: there is none
+  std::optional<double> precision;  // share of such triangles that hold one
 };
 
 // One displayed frame: its figures, not its pixels. Of interlaced video two fields are one frame: figures of triangles

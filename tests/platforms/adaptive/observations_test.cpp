@@ -89,6 +89,31 @@ TEST(Adaptive, RegularPartsGrowWithThePictureAndHighlightPartsDoNot) {
   }
 }
 
+// Recall against a search of every triangle: of the paper's kind of scene nothing is missed; what is only near is
+// looked at too.
+TEST(Adaptive, FindsTheTrueCentresAndMore) {
+  const std::string told = in_child([] {
+    const run::Inputs inputs = run::read_inputs(kAdaptive, kTeapot, {"video.columns=64", "video.lines=64"});
+    run::Options options;
+    std::string text;
+    run::simulate(inputs, options, [&](const run::FramePixels& pixels) {
+      const run::HighlightFigures& h = pixels.figures.highlight;
+      std::ostringstream figures;
+      figures << h.true_centres << ' ' << h.recall.value() << ' ' << h.precision.value();
+      text = figures.str();
+    });
+    return text;
+  });
+  std::istringstream stream(told);
+  std::uint64_t centres = 0;
+  double recall = 0.0, precision = 0.0;
+  stream >> centres >> recall >> precision;
+  EXPECT_GT(centres, 10U);
+  EXPECT_EQ(recall, 1.0);
+  EXPECT_GT(precision, 0.1);
+  EXPECT_LT(precision, 0.9);
+}
+
 // More rings, more parts; a larger threshold, fewer.
 TEST(Adaptive, ThresholdsAndRingsMoveTheParts) {
   const auto parts = [](const std::string& method, const std::string& setting) {
