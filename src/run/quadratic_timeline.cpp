@@ -98,8 +98,8 @@ void QuadraticTimeline::add_frames() {
   }
 }
 
-// The lines of every screen on which a frame is, from when it is shown; before the first there is nothing to send. Over
-// the link to the video the model sends those of a frame's first screen.
+// The lines of every screen on which a frame is, from when it is shown; before the first there is nothing to send. What
+// crosses the link counts to the end of the run, when the last frame is shown.
 void QuadraticTimeline::add_screen(std::size_t line_track, std::size_t unit_track, std::size_t link_track) {
   const std::vector<quadratic::ShownFrame>& frames = platform_.frames();
   const std::uint64_t screen_ps = platform_.timing().clock.picoseconds(platform_.timing().frame);
@@ -110,7 +110,7 @@ void QuadraticTimeline::add_screen(std::size_t line_track, std::size_t unit_trac
     const std::uint64_t until = f + 1 < frames.size() ? frames[f + 1].set_up.shown_ps : from + screen_ps;
     add_lines(line_track, from, until, Part::whole, nullptr);
     add_lines(unit_track, from, until, Part::pixels, nullptr);
-    add_sent(link_track, from, until);
+    if (f + 1 < frames.size()) add_lines(link_track, from, until, Part::pixels, nullptr);
   }
 }
 
@@ -134,21 +134,6 @@ void QuadraticTimeline::add_lines(std::size_t track, std::uint64_t from_ps, std:
         timeline_.events.push_back(
             {track, begin, end, name != nullptr ? std::string(name) : fmt::format("line {}", line), "", 0.0});
     }
-  }
-}
-
-// Of the first whole screen on which the frame is, unless that shows another one from its first line on.
-void QuadraticTimeline::add_sent(std::size_t track, std::uint64_t shown_ps, std::uint64_t until_ps) {
-  const video::Timing& timing = platform_.timing();
-  const Cycles columns(static_cast<std::uint64_t>(platform_.machine().video.columns));
-  const auto lines = static_cast<std::uint64_t>(platform_.machine().video.lines);
-  const std::uint64_t screen_ps = platform_.frame_store().screen_ps(shown_ps);
-  if (screen_ps >= until_ps) return;
-  for (std::uint64_t line = 0; line < lines; ++line) {
-    const std::uint64_t begin = screen_ps + timing.clock.picoseconds(timing.first_pixel(line));
-    const std::uint64_t end = std::min(begin + timing.clock.picoseconds(columns), until_ps);
-    if (range_.lines.has(line) && begin < end)
-      timeline_.events.push_back({track, begin, end, fmt::format("line {}", line), "", 0.0});
   }
 }
 

@@ -26,7 +26,6 @@ class QuadraticTimeline {
   enum class Part { whole, pixels };  // of a line
   void add_screen(std::size_t line_track, std::size_t unit_track, std::size_t link_track);
   void add_lines(std::size_t track, std::uint64_t from_ps, std::uint64_t until_ps, Part part, const char* name);
-  void add_sent(std::size_t track, std::uint64_t shown_ps, std::uint64_t until_ps);
   void add_limits(std::size_t track);
   void add_bus(std::size_t track);
 

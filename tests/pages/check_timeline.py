@@ -124,7 +124,7 @@ def check_store_frames(checks, tracks, report):
     names = [f"frame {k}" for k in range(report["frames"])]
     checks.equal([event[0] for event in computed], names, "frames computed")
     checks.equal([event[0] for event in shown], names, "frames shown")
-    sent = tracks["links", "frame store to video"]
+    sent = tracks["units", "scan-out"]  # the link counts to where the last frame is shown
     for image, of_set_up, frame in zip(report["images"], computed, shown):
         checks.true(of_set_up[2] <= frame[1], "a frame is shown when it has been computed")
         checks.true(any(event[1] == image["first_pixel_ps"] and event[0] == "line 0" for event in sent), "the first pixel")

@@ -18,9 +18,13 @@ struct Views {
 
 // Of a quick host, frame after frame.
 Views views(const std::string& method, int side, std::uint64_t frames, std::vector<std::string> settings = {}) {
-  settings.insert(settings.end(), {"set_up.method=" + method, "video.columns=" + std::to_string(side),
-                                   "video.lines=" + std::to_string(side), "host.clock_hz=2000000000",
-                                   "host.sustained_mflops=2000.0", "object[0].animation[0].deg_per_frame=37.0"});
+  const std::string size = std::to_string(side);
+  settings.push_back(std::string("set_up.method=").append(method));
+  settings.push_back(std::string("video.columns=").append(size));
+  settings.push_back(std::string("video.lines=").append(size));
+  for (const char* setting :
+       {"host.clock_hz=2000000000", "host.sustained_mflops=2000.0", "object[0].animation[0].deg_per_frame=37.0"})
+    settings.emplace_back(setting);
   const std::string packed = in_child([&] {
     const run::Inputs inputs = run::read_inputs(kAdaptive, kTeapot, settings);
     run::Options options;
@@ -93,7 +97,9 @@ TEST(Adaptive, RegularPartsGrowWithThePictureAndHighlightPartsDoNot) {
 // looked at too.
 TEST(Adaptive, FindsTheTrueCentresAndMore) {
   const std::string told = in_child([] {
-    const run::Inputs inputs = run::read_inputs(kAdaptive, kTeapot, {"video.columns=64", "video.lines=64"});
+    std::vector<std::string> small;
+    for (const char* setting : {"video.columns=64", "video.lines=64"}) small.emplace_back(setting);
+    const run::Inputs inputs = run::read_inputs(kAdaptive, kTeapot, small);
     run::Options options;
     std::string text;
     run::simulate(inputs, options, [&](const run::FramePixels& pixels) {
