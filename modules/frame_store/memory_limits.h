@@ -19,8 +19,11 @@ class MemoryLimits {
   double accesses(double complexity, double writes) const;
   // The part of its time that the memory has for drawing: all, or what bursts of the screen's reads leave.
   double drawing_share() const;
-  // Seconds that so many accesses take, bursts between them included.
+  // Seconds that so many accesses take, bursts between them included: from a retrace on where frames are swapped there,
+  // whose time no burst disturbs; else from anywhere, bursts spread evenly.
   double seconds(double accesses) const;
+  // The accesses that so many seconds hold.
+  double accesses_within(double seconds) const;
   // The most screens of pixels that fit `seconds`, with all of them won; the clear not counted in. 0 where not even
   // that fits.
   double complexity_within(double seconds) const;
@@ -31,12 +34,15 @@ class MemoryLimits {
   double access_ns_of_pixel(double pixel_ns) const;
 
  private:
+  double shown_within(double seconds) const;
+
   double access_seconds_;
   double clear_;       // accesses
   double reads_;       // of a screen, to test it
   double writes_;      // of a screen
   double shown_;       // of a screen, through the port that is drawn through
   double frame_;       // seconds of a video frame
+  double quiet_;       // of them, without a burst before the first one
   double line_width_;  // pixels
   double line_accesses_;
 };

@@ -23,6 +23,7 @@ SpanCounters& SpanCounters::operator+=(const SpanCounters& other) {
   carries += other.carries;
   pixels += other.pixels;
   off_screen += other.off_screen;
+  steps = std::max(steps, other.steps);
   return *this;
 }
 
@@ -105,6 +106,8 @@ void SpanUnit::draw_on_screen(const HalfTriangle& half, Drawing& drawing) {
   drawing.cycles += sums.cycles;
   counters_.carries += sums.carries;
   counters_.empty_lines += sums.empty_lines;
+  const Span* const first = spans_.data() + drawing.line;
+  for (std::size_t k = 0; k < lines.lines; ++k) drawing.widest = std::max(drawing.widest, first[k].count);
 }
 
 // Where the lines of a half begin and end, and what they take.
@@ -118,6 +121,7 @@ void SpanUnit::cross(const HalfTriangle& half, Drawing& drawing) {
     // Several units that share the columns end a line together.
     const std::int64_t stepped = std::max<std::int64_t>(std::min(end.column, columns_) - start.column, 0);
     const std::int64_t most = (stepped + sharing_ - 1) / sharing_;
+    drawing.widest = std::max(drawing.widest, static_cast<std::uint32_t>(stepped));
     const std::size_t line = drawing.line + static_cast<std::size_t>(k);
     Span& span = spans_[line];
     span.line = static_cast<std::uint32_t>(half.first_line + k);
@@ -158,6 +162,7 @@ DrawnLines SpanUnit::draw(const TriangleLoad& triangle) {
   }
   ++counters_.triangles;
   counters_.lines += lines;
+  const std::uint64_t carries_before = counters_.carries;
   Drawing drawing;
   for (std::size_t h = 0; h < triangle.count; ++h) {
     const HalfTriangle& half = triangle.halves[h];
@@ -175,6 +180,7 @@ DrawnLines SpanUnit::draw(const TriangleLoad& triangle) {
     drawing.line += static_cast<std::size_t>(half.lines);
   }
   counters_.pixels += drawing.pixels;
+  counters_.steps = std::max(counters_.steps, lines + counters_.carries - carries_before + drawing.widest);
   return {{spans_.data(), lines}, drawing.pixels, drawing.cycles};
 }
 

@@ -21,6 +21,7 @@ struct SpanCounters {
   std::uint64_t carries = 0;
   std::uint64_t pixels = 0;      // on the screen
   std::uint64_t off_screen = 0;  // stepped over, left of the screen
+  std::uint64_t steps = 0;       // at most, of the longest iteration: lines, carries and widest line of a triangle
   SpanCounters& operator+=(const SpanCounters& other);
 };
 
@@ -58,6 +59,7 @@ class SpanUnit {
     std::size_t line = 0;  // of the triangle
     std::uint64_t pixels = 0;
     std::uint64_t cycles = 0;
+    std::uint32_t widest = 0;  // pixels of a line, those included that are stepped over
   };
   bool lies_on_screen(const Drawing& drawing, std::int64_t lines) const;
   void draw_on_screen(const HalfTriangle& half, Drawing& drawing);

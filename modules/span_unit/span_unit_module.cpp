@@ -64,13 +64,14 @@ void SpanUnitModule::begin_frame(LoadPayload&, sc_core::sc_time& delay) {
   if (dealt_) dealt_->begin_frame(buffer_free_);
 }
 
-// The frame is whole when the last triangle has been drawn, and the host has said that there is no other.
+// The frame is whole when the last triangle has been drawn, and the host has said that there is no other; one without
+// triangles when its buffer is free and cleared.
 void SpanUnitModule::end_frame(LoadPayload& payload, sc_core::sc_time& delay) {
   if (dealt_) free_ = dealt_->finish();
   payload_.kind = SpanPayload::Kind::end;
   const std::uint64_t now = stream::picoseconds_now();
   const std::uint64_t told = now + delay.value();
-  sc_core::sc_time until = stream::to_time(std::max(end_ps(), told) - now);
+  sc_core::sc_time until = stream::to_time(std::max({end_ps(), clock_.picoseconds(Cycles(buffer_free_)), told}) - now);
   out->b_transport(payload_, until);
   payload.shown_ps = payload_.shown_ps;
 }

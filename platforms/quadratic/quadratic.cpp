@@ -177,6 +177,10 @@ FrameWork Quadratic::work_since_last() {
     work.span_cycles = std::max(work.span_cycles, units[k].busy - busy_before_[k]);
     busy_before_[k] = units[k].busy;
   }
+  std::uint64_t starved = 0;
+  for (const stream::Occupancy& unit : units) starved += unit.starved;
+  work.starved_cycles = (starved - starved_before_) / units.size();
+  starved_before_ = starved;
   const std::uint64_t waiting = span_unit_->memory_cycles();
   work.waiting_cycles = (waiting - waiting_before_) / units.size();
   waiting_before_ = waiting;
@@ -242,6 +246,7 @@ double Quadratic::frames_per_second() const {
   constexpr double kPicosecond = 1e-12;
   if (frames_.size() < 2) throw std::logic_error("a rate takes two frames");
   const std::uint64_t passed = frames_.back().set_up.shown_ps - frames_.front().set_up.shown_ps;
+  if (passed == 0) return timing_.obtained_refresh_hz();
   return static_cast<double>(frames_.size() - 1) / (static_cast<double>(passed) * kPicosecond);
 }
 

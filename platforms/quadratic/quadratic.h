@@ -30,6 +30,7 @@ struct Options {
 struct FrameWork {
   std::uint64_t span_cycles = 0;     // of the busiest span unit, in its clock: loads, lines, pixels
   std::uint64_t waiting_cycles = 0;  // of a span unit for the memory, or for a pixel unit before it; the mean of all
+  std::uint64_t starved_cycles = 0;  // of a span unit for set-up, with its buffer free or not; the mean of all
   std::uint64_t shading_cycles = 0;  // of a pixel unit, in its clock: loads, lines, pixels
   std::uint64_t accesses = 0;        // of the memory's busiest bank, for spans
 };
@@ -84,7 +85,8 @@ class Quadratic {
   std::vector<ShownFrame> const& frames() const { return frames_; }
   // When the last frame is shown: what was simulated, ends there.
   std::uint64_t end_ps() const { return frames_.back().set_up.shown_ps; }
-  // Frames completed a second: the intervals between the run's frames, from the first to the last that was shown.
+  // Frames completed a second: the intervals between the run's frames, from the first to the last that was shown; the
+  // display's rate where they take no time, because nothing is drawn.
   // Throws std::logic_error where there is but one frame, which has none.
   double frames_per_second() const;
 
@@ -123,6 +125,7 @@ class Quadratic {
   span_unit::SpanCounters drawn_before_;
   std::vector<std::uint64_t> busy_before_;  // of each span unit
   std::uint64_t waiting_before_ = 0;
+  std::uint64_t starved_before_ = 0;
   std::uint64_t accesses_before_ = 0;
   std::uint64_t shading_before_ = 0;
   // Of pictures that change while they are shown: those that have been shown, and not been handed on.

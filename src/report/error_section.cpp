@@ -27,9 +27,12 @@ void take_worst(reference::ErrorFigures& worst, const reference::ErrorFigures& e
   worst.over_one_level_percent = std::max(worst.over_one_level_percent, e.over_one_level_percent);
 }
 
-const char* meaning(const std::string& reference) {
+// Object machines shade each pixel by their own model; others are compared with light at every pixel.
+const char* meaning(const std::string& reference, bool interpolates) {
   if (reference == "ideal")
-    return "the machine's own model in double, vertices not snapped: the error of the arithmetic";
+    return interpolates ? "light at every pixel in double, vertices not snapped: the error of interpolation and "
+                          "arithmetic together"
+                        : "the machine's own model in double, vertices not snapped: the error of the arithmetic";
   if (reference == "snapped")
     return "the same given the snapped vertices: where edges are snapped, no pixel of it may be missing or extra";
   if (reference == "true")
@@ -94,7 +97,8 @@ std::string error_section(const run::Result& result) {
                fmt::format("{:.6g} %", e.over_one_level_percent)});
   }
   text += table.text();
-  for (const std::string& name : references) text += fmt::format("  {}: {}\n", name, meaning(name));
+  for (const std::string& name : references)
+    text += fmt::format("  {}: {}\n", name, meaning(name, result.platform != "imogene"));
   text +=
       "  Levels are compared where both pictures are covered; \"with outlines\" is the PSNR where either is, missing "
       "and extra pixels included.\n";

@@ -58,8 +58,6 @@ void visit_initial_load(Visitor& v, run::Answer& a) {
   v.value("initial_load_bytes",
           {"bytes", kCount, "of meshes that cross the links once, each to the unit that keeps it"},
           a.initial_load_bytes);
-  v.value("torn_frames", {"frames", kCount, "displayed frames with words or light of two animation frames"},
-          a.torn_frames);
 }
 
 template <class Visitor>
@@ -90,6 +88,10 @@ void visit(Visitor& v, run::Answer& a, const Kinds& kinds) {
           a.latency_first_pixel_us);
   v.value("latency_last_pixel_us", {"us", kFormula, "the same to the last pixel"}, a.latency_last_pixel_us);
   if (kinds.boards) visit_initial_load(v, a);
+  v.value("torn_frames",
+          {"frames", kCount,
+           "displayed frames with words or light of two animation frames, or lines of what was not whole"},
+          a.torn_frames);
   v.value("display_works", {"", kFormula, "whether every unit behind the host keeps its deadlines"}, a.display_works);
   v.texts("limits", {"", kFormula, "one sentence for everything that keeps the machine from its rate"}, a.limits);
 }
@@ -194,7 +196,8 @@ template <class Visitor>
 void visit(Visitor& v, reference::ErrorFigures& e) {
   v.value("reference",
           {"", kSetting,
-           "ideal: the machine's own model in double; snapped: the same given the snapped vertices; "
+           "ideal: the machine's own model in double, light at every pixel where it interpolates; snapped: the same "
+           "given the snapped vertices; "
            "true: perspective-correct normals, local viewer and lights"},
           e.reference);
   v.value("compared", {"pixels", kCount, "covered in both pictures"}, e.compared);
@@ -277,7 +280,6 @@ void visit_board(Visitor& v, run::FrameFigures& f) {
           f.words_ahead);
   v.value("light_apart", {"", kCount, "whether objects of one animation frame are shown in the light of another"},
           f.light_apart);
-  v.derived("torn", {"", kFormula, "words_ahead > 0 or light_apart"}, f.torn());
   v.value("late_table_lines", {"lines", kCount, "shaded from half-written tables"}, f.late_table_lines);
   v.value("line_slack_cycles", {"pixel clocks", kFormula, "left at its worst line"}, f.line_slack_cycles);
   v.value("retrace_slack_cycles", {"pixel clocks", kFormula, "left of its vertical retrace"}, f.retrace_slack_cycles);
@@ -313,6 +315,7 @@ void visit(Visitor& v, run::FrameFigures& f, const Kinds& kinds) {
   v.value("host_flops", {"flop", kCount, "of all computation units; 0 where nothing was computed for this frame"},
           f.host_flops);
   v.value("words_sent", {"words", kCount, "written to the object boards for this frame"}, f.words_sent);
+  v.derived("torn", {"", kFormula, "words_ahead > 0, light_apart or torn_lines > 0"}, f.torn());
   if (kinds.boards) visit_board(v, f);
   if (kinds.spans) visit_span(v, f.span);
   if (kinds.highlights) visit_highlight(v, f.highlight);

@@ -50,8 +50,9 @@ std::string limits_section(const run::Result& result) {
         counted(a.initial_load_frames, "frame", "frames"), quantity(a.initial_load_us), grouped(a.initial_load_bytes)));
   if (a.torn_frames > 0)
     text += sentence_line(
-        fmt::format("{} of {} displayed frames are torn: they have words or light of two animation frames.",
-                    grouped(a.torn_frames), grouped(result.frame_count)));
+        fmt::format("{} of {} displayed frames are torn: {}.", grouped(a.torn_frames), grouped(result.frame_count),
+                    has_boards(result) ? "they have words or light of two animation frames"
+                                       : "their screens do not show them as they were when they were whole"));
   return text;
 }
 

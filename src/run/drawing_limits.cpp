@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/run/in_turn.h"
+
 namespace rastertlm::run {
 namespace {
 
@@ -24,7 +26,7 @@ constexpr const char* kOfMemory =
 double frame_seconds(const Quadratic& platform) {
   const video::Timing& timing = platform.timing();
   return platform.machine().frame_store.swap == frame_store::Swap::retrace ? timing.clock.seconds(timing.frame)
-                                                                           : 1.0 / platform.machine().video.refresh_hz;
+                                                                           : 1.0 / attainable_rate(platform);
 }
 
 bool draws_in_turn_with_screen(const quadratic::Machine& machine) {
@@ -65,6 +67,10 @@ std::vector<ComplexityLimit> complexity_limits(const Quadratic& platform, const 
   const double seconds = frame_seconds(platform);
   // A clear does not grow with what is drawn after it.
   const double for_drawing = draws_in_turn_with_screen(machine) ? 0.0 : std::max(0.0, seconds - load.clear);
+  // In accesses: bursts are not spread evenly over a frame.
+  const frame_store::MemoryLimits memory = memory_limits(platform);
+  const double clear = memory.accesses(0, 0);
+  const double for_memory = for_drawing > 0.0 ? std::max(0.0, memory.accesses_within(seconds) - clear) : 0.0;
   const auto of = [&](double available, double used) {
     return used > 0.0 ? screens * available / used : std::numeric_limits<double>::infinity();
   };
@@ -73,12 +79,14 @@ std::vector<ComplexityLimit> complexity_limits(const Quadratic& platform, const 
                                               "memory), times the screens drawn"
                                             : "(frame - clear) / (span by span the slower of span unit and memory), "
                                               "times the screens drawn";
+  const bool one_buffer = draws_in_turn_with_screen(machine);
+  const auto who = [&](const char* unit) { return one_buffer ? "frame store" : unit; };
   std::vector<ComplexityLimit> limits{
-      {"span_unit", "span unit", of(for_drawing, load.span_unit),
+      {"span_unit", who("span unit"), of(for_drawing, load.span_unit),
        "(frame - clear) / (loads, lines and pixels), times the screens drawn", kOfSpanUnit},
-      {"memory", "frame store", of(for_drawing, load.memory - load.clear),
+      {"memory", "frame store", of(for_memory, load.accesses - clear),
        "(frame - clear) / (tests and writes, bursts of the screen between them), times the screens drawn", kOfMemory},
-      {"drawing", slower_of_drawing(load), of(for_drawing, load.drawing), of_drawing,
+      {"drawing", who(slower_of_drawing(load)), of(for_drawing, load.drawing), of_drawing,
        "span_unit.*, frame_store.*, video.*"},
       {"set_up", load.bus_is_slower() ? "bus" : "set-up processor", of(seconds, load.set_up()),
        "frame / (arithmetic and bus words), times the screens drawn", "host.*, set_up.*, video.refresh_hz"},
@@ -86,7 +94,7 @@ std::vector<ComplexityLimit> complexity_limits(const Quadratic& platform, const 
        "host.bus_cycles_per_word, host.bus_bits, host.clock_hz, video.refresh_hz"},
   };
   if (platform.pixel_unit() != nullptr)
-    limits.push_back({"pixel_unit", "pixel unit", of(for_drawing, load.pixel_unit),
+    limits.push_back({"pixel_unit", who("pixel unit"), of(for_drawing, load.pixel_unit),
                       "(frame - clear) / (loads, lines and pixels that are shaded), times the screens drawn",
                       "pixel_unit.*, set_up.method, frame_store.clear, video.*"});
   return limits;

@@ -13,6 +13,7 @@
 #include "src/frame/fields.h"
 #include "src/parameter/table.h"
 #include "src/reference/metrics.h"
+#include "src/run/background_warning.h"
 #include "src/run/deadlines.h"
 #include "src/run/exact_pictures.h"
 #include "src/run/host_figures.h"
@@ -130,17 +131,7 @@ class DisplayedFrames {
 
 void add_warnings(imogene::Imogene& platform, const shading::DeferredShader& shader, Result& result) {
   result.warnings = shader.warnings();
-  for (const FrameFigures& frame : result.frames)
-    if (frame.covered_pixels == 0) {
-      result.warnings.push_back(
-          frame.facing == 0
-              ? fmt::format("frame {} shows nothing but the background: no triangle of the scene that faces the viewer "
-                            "is in view",
-                            frame.frame)
-              : fmt::format("frame {} shows nothing but the background, although {} triangles face the viewer",
-                            frame.frame, frame.facing));
-      break;
-    }
+  warn_of_background(result);
   std::uint64_t pieces = 0;
   for (const FrameFigures& frame : result.frames) pieces = std::max(pieces, frame.pieces_dropped);
   if (pieces > 0)

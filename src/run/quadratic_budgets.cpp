@@ -8,6 +8,7 @@
 #include "modules/span_unit/parameters.h"
 #include "src/run/budget.h"
 #include "src/run/drawing_limits.h"
+#include "src/run/in_turn.h"
 
 namespace rastertlm::run {
 namespace {
@@ -27,8 +28,7 @@ std::uint64_t most_steps(const quadratic::Machine& m) {
                                       static_cast<std::uint64_t>(m.video.lines));
 }
 
-double fraction_bound(const quadratic::Machine& m) {
-  const std::uint64_t steps = most_steps(m);
+double fraction_bound(const quadratic::Machine& m, std::uint64_t steps) {
   return m.set_up.linear() ? span_unit::linear_fraction_bound(m.span_unit.fraction_bits, steps)
                            : span_unit::fraction_bound(m.span_unit.fraction_bits, steps);
 }
@@ -83,6 +83,7 @@ void add_frame_budgets(const Quadratic& platform, const FrameLoad& load, std::ve
   add("drawing.frame", load.cleared_and_drawn(),
       "the clear, then span by span what takes longer, the span unit or the memory",
       "span_unit.*, frame_store.*, video.refresh_hz");
+  budgets.push_back(in_turn_budget(platform));
 }
 
 // What the machine could draw, by whom it is limited; and what it could were all of it whole lines that win.
@@ -94,7 +95,9 @@ void add_complexity(const Quadratic& platform, std::vector<Budget>& budgets) {
   };
   if (std::isfinite(worst.least().screens))
     add("depth_complexity", worst.least().screens,
-        fmt::format("the least of what follows: {}, limited by the {}", worst.least().name, worst.least().unit),
+        fmt::format("the least of what follows: {}, limited by the {}; of each alone, without what set-up and drawing "
+                    "wait for each other (frame.in_turn)",
+                    worst.least().name, worst.least().unit),
         worst.least().moved_by, true);
   for (const ComplexityLimit& limit : worst.limits)
     if (std::isfinite(limit.screens))
@@ -134,10 +137,23 @@ Bottleneck bottleneck_of(const quadratic::Machine& m, const FrameLoad& load, dou
   const double turn = in_turn ? std::ceil(drawing) + 1.0 : drawing;
   if (set_up > turn) return {"set-up processor", load.bus_is_slower() ? "bus words" : "arithmetic and bus", set_up};
   if (in_turn) return {"frame store", "one buffer, drawn and shown in turn", turn};
+  if (load.drawing <= 0.0) return drawing > 0.0 ? Bottleneck{"frame store", "the clear", drawing} : Bottleneck{};
   if (load.memory_is_slower()) return {"frame store", "memory accesses", drawing};
   if (load.pixel_unit_is_slower()) return {"pixel unit", "loads, lines and pixels that are shaded", drawing};
   const char* const after_clear = "loads, lines and pixels, after the clear";
   return {"span unit", load.clear > 0.0 ? after_clear : "loads, lines and pixels", drawing};
+}
+
+// What units wait for each other is in the way as well: of a frame's time, whoever works the most of it.
+Bottleneck with_waits(Bottleneck bottleneck, const Quadratic& platform) {
+  const double utilisation = in_turn(platform).frame / frame_seconds(platform);
+  if (utilisation <= bottleneck.utilisation) return bottleneck;
+  constexpr double kNotable = 1.01;
+  if (utilisation > kNotable * bottleneck.utilisation)
+    bottleneck.resource +=
+        bottleneck.unit == "set-up processor" ? ", held up by clear and drawing" : ", and waiting for set-up";
+  bottleneck.utilisation = utilisation;
+  return bottleneck;
 }
 
 // Screens on which a viewer sees what is being drawn, or parts of two frames.
@@ -165,15 +181,19 @@ void add_warnings_of_screens(const Quadratic& platform, std::uint64_t displayed,
                     torn, displayed, lines));
 }
 
-const char* what_waits(const quadratic::Machine& m) {
-  if (draws_in_turn_with_screen(m))
-    return "the one buffer is drawn in one video frame and shown in the next; it moves with frame_store.buffers, "
-           "frame_store.swap";
-  return m.frame_store.swap == frame_store::Swap::retrace
-             ? "set-up and drawing wait for each other: together they take longer than a frame; it moves with "
-               "span_unit.shadow_sets, frame_store.swap"
-             : "set-up and drawing wait for each other: together they take longer than a frame; it moves with "
-               "span_unit.shadow_sets, frame_store.buffers";
+// Of the longest iteration that the scene made; what a triangle across the screen would make is a budget.
+void add_warning_of_fraction(const Quadratic& platform, std::vector<std::string>& warnings) {
+  const quadratic::Machine& m = platform.machine();
+  const std::uint64_t steps = platform.span_unit().counters().steps;
+  const double bound = fraction_bound(m, steps);
+  constexpr double kHalfALevel = 0.5;
+  constexpr double kLevels = 255.0;
+  if (bound <= kHalfALevel) return;
+  warnings.push_back(
+      fmt::format("{} fraction bits may be off by {} after the {} steps of the longest iteration drawn "
+                  "(span_unit.fraction_bits)",
+                  m.span_unit.fraction_bits,
+                  bound > kLevels ? std::string("any level") : fmt::format("{:.3g} levels", bound), steps));
 }
 
 }  // namespace
@@ -190,7 +210,7 @@ std::vector<Budget> quadratic_budgets(const Quadratic& platform) {
                            "000/001, section 7: the whole screen once, a pixel a clock",
                            "span_unit.clock_ns, span_unit.pixel_cycles, span_unit.units, video.*", false));
   budgets.push_back(
-      budget("span_unit.fraction", fraction_bound(m), 0.5, "levels",
+      budget("span_unit.fraction", fraction_bound(m, most_steps(m)), 0.5, "levels",
              fmt::format("2^-(bits + 1) {}, k the steps from the left of the screen across it ({})",
                          m.set_up.linear() ? "(k + 1)" : "(k^2 + k + 2) / 2", what_bound_holds(m.span_unit.start_edge)),
              "span_unit.fraction_bits, set_up.method, video.*", false));
@@ -209,7 +229,7 @@ Answer quadratic_answer(const Quadratic& platform, const std::vector<Budget>& bu
   answer.required_rate_hz = m.video.refresh_hz;
   answer.display_rate_hz = timing.obtained_refresh_hz();
   answer.frame_rate_hz = answer.update_rate_hz = platform.frames_per_second();
-  answer.bottleneck = bottleneck_of(m, load, frame_seconds(platform));
+  answer.bottleneck = with_waits(bottleneck_of(m, load, frame_seconds(platform)), platform);
   answer.headroom = 1.0 / answer.bottleneck.utilisation - 1.0;
   const quadratic::ShownFrame& last = platform.frames().back();
   const std::uint64_t begin = last.set_up.begin_ps;
@@ -217,26 +237,20 @@ Answer quadratic_answer(const Quadratic& platform, const std::vector<Budget>& bu
   answer.latency_last_pixel_us = static_cast<double>(last.last_pixel_ps - begin) * 1e-6;
   answer.latency_frames = static_cast<std::uint64_t>(
       std::ceil(static_cast<double>(last.set_up.shown_ps - begin) * kPicosecond * answer.display_rate_hz));
-  // Frames are shown at retraces: a rate just below the display's may be one frame less over the run.
-  answer.sustained = answer.frame_rate_hz >= answer.required_rate_hz * (1 - 1e-9);
+  // As of the object machine: in whole pixel clocks the display may be a hair below what is asked of it.
+  answer.sustained = answer.frame_rate_hz >= attainable_rate(platform) * (1 - 1e-9);
   for (const Budget& b : budgets)
-    if (b.applies && !b.fits && b.unit == "us")
+    if (b.applies && !b.fits && b.unit == "us" && b.name != "frame.in_turn")
       answer.limits.push_back(fmt::format("{}: a frame needs {:.6g} us and has {:.6g} us; it moves with {}", b.name,
                                           b.used, b.available, b.moved_by));
-  if (answer.limits.empty() && !answer.sustained) answer.limits.emplace_back(what_waits(m));
+  if (answer.limits.empty() && !answer.sustained) answer.limits.push_back(what_waits(platform));
   return answer;
 }
 
 std::vector<std::string> quadratic_warnings(const Quadratic& platform, std::uint64_t displayed) {
   std::vector<std::string> warnings;
   add_warnings_of_screens(platform, displayed, warnings);
-  const quadratic::Machine& m = platform.machine();
-  const double bound = fraction_bound(m);
-  constexpr double kHalfALevel = 0.5;
-  if (bound > kHalfALevel)
-    warnings.push_back(
-        fmt::format("{} fraction bits may be off by {:.3g} levels across the screen (span_unit.fraction_bits)",
-                    m.span_unit.fraction_bits, bound));
+  add_warning_of_fraction(platform, warnings);
   host::SetUpCounts all;  // of what is displayed, not of frames beside it that tell the rate
   for (std::size_t frame = 0; frame < std::min<std::size_t>(displayed, platform.frames().size()); ++frame) {
     const host::SetUpCounts& counts = platform.frames()[frame].set_up.counts;

@@ -1,5 +1,7 @@
 #include "src/run/quadratic_simulation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -12,6 +14,7 @@
 #include "src/parameter/table.h"
 #include "src/reference/metrics.h"
 #include "src/reference/sphere_renderer.h"
+#include "src/run/background_warning.h"
 #include "src/run/drawing_limits.h"
 #include "src/run/exact_pictures.h"
 #include "src/run/highlight_recall.h"
@@ -128,6 +131,22 @@ Modelled modelled_figures(const quadratic::Quadratic& platform, const scene::Sce
   return m;
 }
 
+// A picture of which parts are another's, or missing, is not what the scene asks for, however often it changes.
+void judge_torn_frames(Result& result) {
+  std::uint64_t lines = 0;
+  for (const FrameFigures& frame : result.frames) {
+    result.answer.torn_frames += frame.torn() ? 1 : 0;
+    lines += frame.span.torn_lines;
+  }
+  if (lines == 0) return;
+  Answer& answer = result.answer;
+  answer.sustained = answer.display_works = false;
+  answer.limits.push_back(fmt::format(
+      "{} of {} displayed frames are torn, {} lines of their screens show what was not whole; it moves with "
+      "frame_store.swap, frame_store.buffers",
+      answer.torn_frames, result.frames.size(), lines));
+}
+
 }  // namespace
 
 Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& inputs, const Options& options,
@@ -173,11 +192,13 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
                                     frame_seconds(*platform)))
     result.budgets.push_back(std::move(b));
   result.answer = quadratic_answer(*platform, result.budgets);
+  judge_torn_frames(result);
   result.links = link_figures(*platform);
   result.memories = memory_figures(machine);
   result.logic = logic_figures(*platform);
   result.modelled = modelled_figures(*platform, scene);
   result.warnings = quadratic_warnings(*platform, options.frames);
+  warn_of_background(result);
   if (timeline) result.timeline = std::make_shared<const Timeline>(timeline->close());
   if (options.host_figures)
     result.host =

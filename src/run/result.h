@@ -34,7 +34,7 @@ struct Answer {
   std::uint64_t initial_load_frames = 0;  // video frames before the first picture
   double initial_load_us = 0.0;           // until the last unit has finished the first frame
   std::uint64_t initial_load_bytes = 0;   // of meshes, that stay in the units' memories
-  std::uint64_t torn_frames = 0;          // displayed frames with words or light of two animation frames
+  std::uint64_t torn_frames = 0;          // displayed frames with parts of two, words or light or lines of a screen
   bool display_works = true;              // every unit behind the host keeps its deadlines
   std::vector<std::string> limits;        // one sentence for everything that keeps the machine from its rate
 };
@@ -194,7 +194,7 @@ struct FrameFigures {
   std::uint64_t words_sent = 0;
   std::uint64_t words_ahead = 0;  // in use, of an update that the computation units have not finished
   bool light_apart = false;       // objects of one frame in the light of another
-  bool torn() const { return words_ahead > 0 || light_apart; }
+  bool torn() const { return words_ahead > 0 || light_apart || span.torn_lines > 0; }
   std::uint64_t late_table_lines = 0;     // shaded from half-written tables
   std::int64_t line_slack_cycles = 0;     // pixel clocks left at its worst line
   std::int64_t retrace_slack_cycles = 0;  // and of its retrace

@@ -213,6 +213,13 @@ function errorSection() {
   const measured = report.images.filter((image) => image.errors.length > 0);
   if (measured.length === 0) return;
   const decibels = (value) => value === null ? 'infinite' : quantity(value) + ' dB';
+  const meanings = [
+    ['ideal', report.platform === 'imogene' ? 'the machine\'s own model in double' :
+        'light at every pixel in double: the error of interpolation and arithmetic together'],
+    ['snapped', 'the same given the snapped vertices'],
+    ['true', 'perspective-correct normals, local viewer and lights'],
+    ['sphere', 'the spheres that the meshes stand for'],
+  ];
   section('Distance from the exact picture',
       table(['>frame', 'reference', '>missing', '>extra', '>other triangle', '>largest', '>RMSE', '>PSNR', '>with outlines', '>over one level'],
           measured.flatMap((image) => image.errors.map((error) => [
@@ -220,8 +227,9 @@ function errorSection() {
             grouped(error.max_level), quantity(error.rmse_level), decibels(error.psnr_db), decibels(error.psnr_outline_db),
             quantity(error.over_one_level_percent) + ' %',
           ])), {tall: true}),
-      note('Missing, extra and other triangle in pixels; largest and RMSE in levels (1/255 of a channel). ideal: the machine\'s own model in double; ' +
-          'snapped: the same given the snapped vertices; true: perspective-correct normals, local viewer and lights; sphere: the spheres that the meshes stand for.'));
+      note('Missing, extra and other triangle in pixels; largest and RMSE in levels (1/255 of a channel). ' +
+          meanings.filter(([name]) => measured.some((image) => image.errors.some((error) => error.reference === name)))
+              .map(([name, meaning]) => `${name}: ${meaning}`).join('; ') + '.'));
 }
 
 function hardwareSection() {
