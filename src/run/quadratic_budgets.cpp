@@ -218,7 +218,7 @@ std::vector<Budget> quadratic_budgets(const Quadratic& platform) {
 }
 
 Bottleneck frame_bottleneck(const Quadratic& platform, const quadratic::ShownFrame& frame) {
-  return bottleneck_of(platform.machine(), frame_load(platform, frame), frame_seconds(platform));
+  return with_waits(bottleneck_of(platform.machine(), frame_load(platform, frame), frame_seconds(platform)), platform);
 }
 
 Answer quadratic_answer(const Quadratic& platform, const std::vector<Budget>& budgets) {

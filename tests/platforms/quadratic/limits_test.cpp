@@ -235,27 +235,14 @@ std::vector<std::string> parts(const std::string& list) {
 }
 
 TEST(Budgets, MoveWithWhatTheySay) {
-  const std::map<std::string, std::string> changes{{"host.sustained_mflops", "10.0"},
-                                                   {"host.bus_cycles_per_word", "3"},
-                                                   {"host.bus_bits", "16"},
-                                                   {"host.clock_hz", "50000000"},
-                                                   {"set_up.method", "gouraud"},
-                                                   {"video.refresh_hz", "40.0"},
-                                                   {"span_unit.clock_ns", "62.5"},
-                                                   {"span_unit.pixel_cycles", "2"},
-                                                   {"span_unit.line_change_cycles", "3"},
-                                                   {"span_unit.load_cycles", "7"},
-                                                   {"span_unit.units", "2"},
-                                                   {"span_unit.shadow_sets", "400"},
-                                                   {"span_unit.fraction_bits", "18"},
-                                                   {"frame_store.access_ns", "35.0"},
-                                                   {"frame_store.width_bits", "96"},
-                                                   {"frame_store.banks", "2"},
-                                                   {"frame_store.clear", "false"},
-                                                   {"frame_store.depth_test", "false"},
-                                                   {"frame_store.scan_out", "shared"},
-                                                   {"frame_store.buffers", "1"},
-                                                   {"video.columns", "72"}};
+  const std::map<std::string, std::string> changes{
+      {"host.sustained_mflops", "10.0"},  {"host.bus_cycles_per_word", "3"}, {"host.bus_bits", "16"},
+      {"host.clock_hz", "50000000"},      {"set_up.method", "gouraud"},      {"video.refresh_hz", "40.0"},
+      {"span_unit.clock_ns", "62.5"},     {"span_unit.pixel_cycles", "2"},   {"span_unit.line_change_cycles", "3"},
+      {"span_unit.load_cycles", "7"},     {"span_unit.units", "2"},          {"span_unit.shadow_sets", "400"},
+      {"span_unit.fraction_bits", "18"},  {"frame_store.access_ns", "35.0"}, {"frame_store.width_bits", "96"},
+      {"frame_store.banks", "2"},         {"frame_store.clear", "false"},    {"frame_store.depth_test", "false"},
+      {"frame_store.scan_out", "shared"}, {"frame_store.buffers", "1"},      {"video.columns", "72"}};
   const Described before = budgets_with({});
   std::map<std::string, Figures> after;
   for (const auto& [path, value] : changes)
