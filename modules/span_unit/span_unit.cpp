@@ -106,8 +106,10 @@ void SpanUnit::draw_on_screen(const HalfTriangle& half, Drawing& drawing) {
   drawing.cycles += sums.cycles;
   counters_.carries += sums.carries;
   counters_.empty_lines += sums.empty_lines;
-  const Span* const first = spans_.data() + drawing.line;
-  for (std::size_t k = 0; k < lines.lines; ++k) drawing.widest = std::max(drawing.widest, first[k].count);
+  // Both edges are straight: no line between the first and the last is wider than either, but for rounding.
+  const Span& first = spans_[drawing.line];
+  const Span& last = spans_[drawing.line + lines.lines - 1];
+  drawing.widest = std::max(drawing.widest, std::max(first.count, last.count) + 1);
 }
 
 // Where the lines of a half begin and end, and what they take.

@@ -53,7 +53,7 @@ TEST_F(PagesTest, OfASweep) {
       check_page("check_sweep_page.py", {in_work("sweep.html"), RASTERTLM_ARTEFACTS, "sweep_small"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
   const std::string before = file_text(in_work("sweep.html"));
-  EXPECT_EQ(run({"explore", "show", "s.sqlite", "--html", "none/sweep.html"}).exit_code, 4);
+  EXPECT_EQ(run({"explore", "show", "s.sqlite", "--html", "/dev/null/sweep.html"}).exit_code, 4);
   constexpr rlim_t kTooSmall = 100'000;
   EXPECT_EQ(run({"explore", "show", "s.sqlite", "--html", "sweep.html"}, kTooSmall).exit_code, 4);
   EXPECT_TRUE(file_text(in_work("sweep.html")) == before) << "what was there stays";
