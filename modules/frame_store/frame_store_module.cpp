@@ -120,13 +120,14 @@ void FrameStoreModule::tell_quick(std::uint64_t begin_ps, std::uint64_t accesses
 }
 
 // Two buffers: the other one is free to be drawn when this one is shown. One: when the screen has shown it once, whole;
-// or at once where it does not wait for the screen, which then shows it half drawn as well. A retrace swaps once: a
-// frame that takes no time is shown at the next one after its buffer became free.
+// or at once where it does not wait for the screen, which then shows it half drawn as well. A retrace swaps two
+// buffers once: a frame that takes no time is shown at the next one after its buffer became free.
 void FrameStoreModule::end_frame(SpanPayload& payload, const sc_core::sc_time& delay) {
   const std::uint64_t drawn = stream::picoseconds_now() + delay.value();
   note_starved(drawn);
   const bool waits = parameters_.swap == Swap::retrace;
-  payload.shown_ps = waits ? retrace_from(std::max(drawn, buffer_free_ps_ + 1)) : drawn;
+  const std::uint64_t swapped = parameters_.buffers == 2 ? buffer_free_ps_ + 1 : 0;
+  payload.shown_ps = waits ? retrace_from(std::max(drawn, swapped)) : drawn;
   const bool once_shown = waits && parameters_.buffers == 1;
   buffer_free_ps_ = once_shown ? retrace_from(payload.shown_ps + 1) : payload.shown_ps;
   if (!reader_) {
