@@ -299,7 +299,9 @@ TEST_P(FrameStoreTest, DrawsGivenLevelsAsItDoesThoseOfRegisters) {
           const std::size_t count = i % 2 == 0 ? 3 : 1;
           std::vector<span_unit::Span> list;
           std::vector<std::uint32_t> levels;
+          const std::uint32_t first = std::min(drawn[i].span.line, kLines - 3);
           for (std::size_t k = i; k < i + count; ++k) {
+            drawn[k].span.line = first + static_cast<std::uint32_t>(k - i);
             list.push_back(drawn[k].span);
             levels.insert(levels.end(), drawn[k].levels.begin(), drawn[k].levels.end());
             for (std::size_t c = 0; c < span_unit::kDepthSet; ++c) drawn[k].span.i[c] = random_();  // nobody looks
