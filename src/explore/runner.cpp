@@ -185,7 +185,6 @@ class Runner {
     // While there are points to make, nobody waits longer than it takes to see who is done.
     const bool idle = running_.size() < options_.jobs && !ahead_.empty() && running_.empty();
     signals.wait(descriptors, is_room_ahead() || idle ? 0 : kTick);
-    std::vector<std::pair<Job, PointResult>> done;
     std::size_t place = 0;
     for (auto one = running_.begin(); one != running_.end(); ++place) {
       if (descriptors[place].revents == 0 || !one->worker->read()) {
@@ -198,14 +197,10 @@ class Runner {
         one->renders->ready = result.state == State::done;
         if (!one->renders->ready) one->renders->pictures.reset();
       }
-      done.emplace_back(std::move(one->job), std::move(result));
+      const Job job = std::move(one->job);
       one = running_.erase(one);
+      record(job, std::move(result));
     }
-    // Those who are next do not wait for the store; but nobody is started behind a sweep that a first report may end.
-    if (checked_)
-      while (running_.size() < options_.jobs && dispatch()) {
-      }
-    for (auto& [job, result] : done) record(job, std::move(result));
   }
 
   void record(const Job& job, PointResult result) {
