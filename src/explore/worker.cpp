@@ -15,6 +15,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 
 #include "src/base/errors.h"
 #include "src/explore/figures.h"
@@ -153,8 +154,9 @@ void keep_memory() {
   // Large pages, where the system gives them: a worker would come to most of its time by small ones.
   constexpr std::size_t kPage = std::size_t{2} << 20, kArena = 8 * kPage;
   if (void* const arena = std::malloc(kArena + kPage)) {
-    const auto begin = (reinterpret_cast<std::uintptr_t>(arena) + kPage - 1) / kPage * kPage;
-    ::madvise(reinterpret_cast<void*>(begin), kArena, MADV_HUGEPAGE);
+    void* begin = arena;
+    std::size_t room = kArena + kPage;
+    if (std::align(kPage, kArena, begin, room) != nullptr) ::madvise(begin, kArena, MADV_HUGEPAGE);
     std::free(arena);
   }
 }
