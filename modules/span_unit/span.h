@@ -36,13 +36,13 @@ struct EdgeRegisters {
 };
 
 // A line of a triangle. Its pixels are what `i` shows after 0, 1, 2 ... steps of a pixel: I += dI, dI += pixel_pixel.
-// Only the low bits of the registers' widths count.
-struct Span {
+// Only the low bits of the registers' widths count. No set of registers lies across two lines of a cache.
+struct alignas(64) Span {
   std::uint32_t line = 0;
   std::uint32_t column = 0;  // of the first pixel that is on the screen
   std::uint32_t count = 0;   // pixels that are; may be none
   std::uint64_t cycles = 0;  // that the unit takes for the line, pixels off the screen and a carry included
-  std::uint64_t i[kRegisterSets] = {};
+  alignas(32) std::uint64_t i[kRegisterSets] = {};
   std::uint64_t di[kRegisterSets] = {};
   std::uint64_t pixel_pixel[kRegisterSets] = {};  // depth: 0
 };
