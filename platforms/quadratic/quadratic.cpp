@@ -187,6 +187,12 @@ FrameWork Quadratic::work_since_last() {
   if (pixel_unit_) {
     work.shading_cycles = pixel_unit_->occupancy().busy - shading_before_;
     shading_before_ = pixel_unit_->occupancy().busy;
+    work.shaded_pixels = pixel_unit_->shaded() - shaded_before_;
+    shaded_before_ = pixel_unit_->shaded();
+    const pixel_unit::ShaderCounters& shader = work_->shader()->counters();
+    const std::uint64_t flops = shader.line.flops() + shader.pixel.flops();
+    work.shading_flops = flops - shading_flops_before_;
+    shading_flops_before_ = flops;
   }
   work.accesses = frame_store_->drawing_accesses() - accesses_before_;
   accesses_before_ = frame_store_->drawing_accesses();

@@ -32,6 +32,8 @@ struct FrameWork {
   std::uint64_t waiting_cycles = 0;  // of a span unit for the memory, or for a pixel unit before it; the mean of all
   std::uint64_t starved_cycles = 0;  // of a span unit for set-up, with its buffer free or not; the mean of all
   std::uint64_t shading_cycles = 0;  // of a pixel unit, in its clock: loads, lines, pixels
+  std::uint64_t shaded_pixels = 0;   // by it
+  std::uint64_t shading_flops = 0;   // of its lines and pixels; a triangle's set-up is the host's
   std::uint64_t accesses = 0;        // of the memory's busiest bank, for spans
 };
 
@@ -128,6 +130,8 @@ class Quadratic {
   std::uint64_t starved_before_ = 0;
   std::uint64_t accesses_before_ = 0;
   std::uint64_t shading_before_ = 0;
+  std::uint64_t shaded_before_ = 0;
+  std::uint64_t shading_flops_before_ = 0;
   // Of pictures that change while they are shown: those that have been shown, and not been handed on.
   std::vector<std::pair<std::uint64_t, frame::Frame>> screens_;
   std::uint64_t screens_shown_ = 0;

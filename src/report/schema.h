@@ -238,7 +238,11 @@ void visit_span(Visitor& v, run::SpanFrameFigures& s) {
   v.value("at_depth_limit", {"triangles", kCount, "not split any more, and off by more than the threshold"},
           s.at_depth_limit);
   v.value("flat", {"triangles", kCount, "drawn in one colour: too low, or the solver had no answer"}, s.flat);
-  v.value("lighting_evaluations", {"evaluations", kCount, "of the lighting equation"}, s.lighting_evaluations);
+  v.value("lighting_evaluations", {"evaluations", kCount, "of the lighting equation, at points of triangles"},
+          s.lighting_evaluations);
+  v.value("shaded_pixels", {"pixels", kCount, "lit one by one by the pixel unit: as many evaluations more"},
+          s.shaded_pixels);
+  v.value("shading_flops", {"flop", kCount, "of the pixel unit for them: its lines and pixels"}, s.shading_flops);
   v.value("step_edges", {"edges", kCount, "that one triangle has whole and its neighbours, split, in parts"},
           s.step_edges);
   v.value("largest_step_levels", {"levels", kFormula, "of colour along such an edge, in any channel"},

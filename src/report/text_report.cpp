@@ -217,7 +217,11 @@ std::string pictures_section(const run::Result& result) {
       add("parts of them", f.highlight.parts, "triangles");
     }
     add("in one colour", f.span.flat, "triangles");
-    add("light evaluated", f.span.lighting_evaluations, "times");
+    add("light evaluated at points of triangles", f.span.lighting_evaluations, "times");
+    if (f.span.shaded_pixels > 0) {
+      add("lit one by one", f.span.shaded_pixels, "pixels");
+      add("operations of the pixel unit for them", f.span.shading_flops, "flop");
+    }
   }
   add("fraction bits of snapped vertices", static_cast<std::uint64_t>(std::max(f.snap_fraction_bits, 0)), "bits");
   add("covered", f.covered_pixels, "pixels");

@@ -58,6 +58,8 @@ FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown
             colour.at_limit,
             colour.flat_low + colour.flat_undefined,
             counts.lighting.evaluations,
+            shown.work.shaded_pixels,
+            shown.work.shading_flops,
             shown.set_up.colour_steps.edges,
             shown.set_up.colour_steps.largest_levels,
             counts.lighting.clamped_knots,

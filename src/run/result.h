@@ -141,11 +141,13 @@ struct Deadlines {
 struct SpanFrameFigures {
   std::uint64_t drawn_pieces = 0;  // triangles handed to the span unit, children of split ones counted one by one
   std::uint64_t splits = 0;
-  std::uint64_t at_depth_limit = 0;  // not split any more, and still off by more than the threshold
-  std::uint64_t flat = 0;            // drawn in one colour: too low, or the solver had no answer
-  std::uint64_t lighting_evaluations = 0;
-  std::uint64_t step_edges = 0;      // that one triangle has whole and its neighbours, split, in parts
-  double largest_step_levels = 0.0;  // of colour, along them
+  std::uint64_t at_depth_limit = 0;        // not split any more, and still off by more than the threshold
+  std::uint64_t flat = 0;                  // drawn in one colour: too low, or the solver had no answer
+  std::uint64_t lighting_evaluations = 0;  // at points of triangles
+  std::uint64_t shaded_pixels = 0;         // lit one by one, by a pixel unit
+  std::uint64_t shading_flops = 0;         // that it took for them
+  std::uint64_t step_edges = 0;            // that one triangle has whole and its neighbours, split, in parts
+  double largest_step_levels = 0.0;        // of colour, along them
   std::uint64_t clamped_knots = 0;
   std::uint64_t not_finite = 0;
   std::uint64_t span_pixels = 0;        // drawn on the screen
