@@ -41,10 +41,13 @@ void SetUpParameters::declare(parameter::Table& table) {
                 About{"bits", "Fraction bits of the fixed-point numbers, of 64.", kPicture,
                       Condition{"set_up.arithmetic", {"fixed"}}});
   table.real("highlight_test.threshold_levels", test_threshold_levels, {0.0, 255.0},
-             About{"levels", "A triangle is split where the quadratic is off by more.", kHost, kAdaptive});
-  table.choice(
-      "highlight_test.points", test_points, {"centroid", "points"},
-      About{"", "Where the quadratic is compared with the light: the centre, or three more points.", kHost, kAdaptive});
+             About{"levels", "A triangle is split where the quadratic is off by more; not where h1h2 decides.", kHost,
+                   kAdaptive});
+  table.choice("highlight_test.points", test_points, {"centroid", "points", "h1h2"},
+               About{"",
+                     "Where the quadratic is compared with the light: the centre, or three more points; or, h1h2, "
+                     "triangles are split whose corners say that they may hold a highlight's centre.",
+                     kHost, kAdaptive});
   table.integer("highlight_test.depth_limit", test_depth_limit, {0, 6},
                 About{"levels", "How often a triangle may be split.", kHost, kAdaptive});
   table.choice("subdivision.coverage", child_coverage, {"parent", "snapped"},

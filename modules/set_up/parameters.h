@@ -17,7 +17,8 @@ enum class SetUpArithmetic { double_precision, single_precision, fixed };
 // at points) linear on the screen, the viewer infinitely far. perspective: those of the surface at that point, the
 // viewer at the eye.
 enum class Attributes { linear, perspective };
-enum class TestPoints { centroid, points };
+// What a triangle is split by: the quadratic's error at one point or at four, or H1 and H2 at its corners (003).
+enum class TestPoints { centroid, points, h1h2 };
 // Corners of children: exact midpoints of their parent's, or midpoints moved to the grid of all vertices.
 enum class ChildCoverage { parent, snapped };
 

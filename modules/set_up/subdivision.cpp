@@ -17,11 +17,6 @@ constexpr int kCentreBits = 6;  // and inside: 64ths of the corners' grid
 
 constexpr std::size_t index_of(std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; }
 
-SurfacePoint<Number> surface_point(const LitPoint& point) {
-  const auto of = [](const glm::dvec3& v) { return geometry::Vector3<Number>(v.x, v.y, v.z); };
-  return {of(point.position), of(point.normal)};
-}
-
 }  // namespace
 
 SubdivisionCounts& SubdivisionCounts::operator+=(const SubdivisionCounts& other) {

@@ -21,6 +21,12 @@ struct LitCorner {
 };
 using LitTriangle = std::array<LitCorner, 3>;
 
+// What the tests of a highlight see of it, counting.
+inline SurfacePoint<geometry::Counted<double>> surface_point(const LitPoint& point) {
+  const auto of = [](const glm::dvec3& v) { return geometry::Vector3<geometry::Counted<double>>(v.x, v.y, v.z); };
+  return {of(point.position), of(point.normal)};
+}
+
 struct SubdivisionCounts {
   std::uint64_t divided = 0;   // triangles of which there are several parts now
   std::uint64_t parts = 0;     // of these

@@ -221,7 +221,7 @@ void TriangleColourer::split_or_draw(const Knots& knots, int level, std::vector<
     solve_linear(knots, triangle);
   } else {
     solve_quadratic(knots, triangle);
-    if (parameters_.method == ShadingMethod::quadratic_adaptive && is_off(knots, triangle, triangle.material)) {
+    if (parameters_.method == ShadingMethod::quadratic_adaptive && is_to_split(knots, triangle)) {
       if (level < parameters_.test_depth_limit) return split(knots, level, out);
       ++counts_.at_limit;
     }
@@ -251,6 +251,32 @@ void TriangleColourer::split(const Knots& knots, int level, std::vector<ColourTr
   child({k12, k2, k23, between(k12, k2, m), inner_2, between(k2, k23, m)}, {d12, d2, d23});
   child({k13, k23, k3, inner_3, between(k13, k3, m), between(k23, k3, m)}, {d13, d23, d3});
   child({k12, k23, k13, inner_2, inner_1, inner_3}, {d12, d23, d13});
+}
+
+bool TriangleColourer::is_to_split(const Knots& knots, const ColourTriangle& triangle) {
+  if (parameters_.test_points == TestPoints::h1h2) return may_hold_highlight(knots);
+  return is_off(knots, triangle, triangle.material);
+}
+
+// No light is evaluated for it. Corners, lights and viewer are in eye space.
+bool TriangleColourer::may_hold_highlight(const Knots& knots) {
+  const geometry::OperationCounts before = geometry::operation_counts;
+  const bool at_eye = lighting_.viewer_at_eye();
+  bool may_be = false;
+  for (const geometry::LightSource& light : lighting_.lights()) {
+    const HighlightSource source{light.at_point, light.vector, at_eye,
+                                 at_eye ? glm::dvec3(0.0) : glm::dvec3(0.0, 0.0, 1.0)};
+    std::array<std::uint8_t, 3> sides{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SurfacePoint<Number> corner = surface_point(knots.point[i]);
+      sides[i] = highlight_sides<Number>(source, corner.position, corner.normal);
+    }
+    operations_.integer += 3;
+    may_be = may_be_highlighted(sides[0], sides[1], sides[2]);
+    if (may_be) break;
+  }
+  operations_ += geometry::operation_counts - before;
+  return may_be;
 }
 
 bool TriangleColourer::is_off(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material) {

@@ -22,7 +22,7 @@ struct ColourCounts {
   std::uint64_t flat_low = 0;        // lower than 1/64 pixel: drawn in the mean of its corners' colours
   std::uint64_t flat_undefined = 0;  // the solver or its numbers had no answer: likewise
   std::uint64_t splits = 0;          // triangles replaced by four
-  std::uint64_t at_limit = 0;        // still off by more than the threshold, and not split any more
+  std::uint64_t at_limit = 0;        // to be split by the test, and not split any more
   std::uint64_t tests = 0;           // light evaluated to test
   ColourCounts& operator+=(const ColourCounts& other);
 };
@@ -74,6 +74,8 @@ class TriangleColourer {
   // `out` ends with the triangle, of which corners and colour are missing.
   void split_or_draw(const Knots& knots, int level, std::vector<ColourTriangle>& out);
   void split(const Knots& knots, int level, std::vector<ColourTriangle>& out);
+  bool is_to_split(const Knots& knots, const ColourTriangle& triangle);
+  bool may_hold_highlight(const Knots& knots);
   bool is_off(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material);
   bool is_off_at(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material,
                  const std::array<double, 3>& weights);

@@ -235,7 +235,7 @@ void visit_span(Visitor& v, run::SpanFrameFigures& s) {
   v.value("drawn_pieces", {"triangles", kCount, "handed to the span unit, children of split ones counted one by one"},
           s.drawn_pieces);
   v.value("splits", {"triangles", kCount, "that the highlight test replaced by four"}, s.splits);
-  v.value("at_depth_limit", {"triangles", kCount, "not split any more, and off by more than the threshold"},
+  v.value("at_depth_limit", {"triangles", kCount, "not split any more, although the highlight test says so"},
           s.at_depth_limit);
   v.value("flat", {"triangles", kCount, "drawn in one colour: too low, or the solver had no answer"}, s.flat);
   v.value("lighting_evaluations", {"evaluations", kCount, "of the lighting equation, at points of triangles"},

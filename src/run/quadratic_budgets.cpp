@@ -263,7 +263,10 @@ std::vector<std::string> quadratic_warnings(const Quadratic& platform, std::uint
   };
   tell(all.colour.flat_undefined, "triangles are drawn in one colour: the solver had no answer for them");
   tell(all.colour.flat_low, "triangles lower than 1/64 pixel are drawn in one colour");
-  tell(all.colour.at_limit, "triangles are split no further, and off by more than highlight_test.threshold_levels");
+  tell(all.colour.at_limit,
+       platform.machine().set_up.test_points == set_up::TestPoints::h1h2
+           ? "triangles are split no further, and may hold a highlight's centre (highlight_test.depth_limit)"
+           : "triangles are split no further, and off by more than highlight_test.threshold_levels");
   tell(all.wraps, "triangles have slopes that the registers do not hold as signed numbers: prestep shows other pixels");
   tell(all.lighting.clamped_knots, "colours at points are beyond the levels and clamped");
   tell(all.lighting.not_finite, "colours at points are no numbers and taken as black");

@@ -141,7 +141,7 @@ struct Deadlines {
 struct SpanFrameFigures {
   std::uint64_t drawn_pieces = 0;  // triangles handed to the span unit, children of split ones counted one by one
   std::uint64_t splits = 0;
-  std::uint64_t at_depth_limit = 0;        // not split any more, and still off by more than the threshold
+  std::uint64_t at_depth_limit = 0;        // not split any more, although the highlight test says so
   std::uint64_t flat = 0;                  // drawn in one colour: too low, or the solver had no answer
   std::uint64_t lighting_evaluations = 0;  // at points of triangles
   std::uint64_t shaded_pixels = 0;         // lit one by one, by a pixel unit

@@ -58,6 +58,15 @@ TEST_F(QuadraticWarningTest, TrianglesThatAreSplitNoFurther) {
                         usual_),
               HasSubstr("4 triangles are split no further, and off by more than highlight_test.threshold_levels"));
 }
+// The light is in the viewer's direction: the highlight is where the normal is, inside; all that hold it are split
+// once.
+TEST_F(QuadraticWarningTest, TrianglesThatStillHoldAHighlight) {
+  EXPECT_THAT(report_of("[set_up]\nmethod = \"quadratic_adaptive\"\n[highlight_test]\ndepth_limit = 1\n"
+                        "points = \"h1h2\"\n",
+                        usual_),
+              ContainsRegex("[1-4] triangles are split no further, and may hold a highlight's centre "
+                            "\\(highlight_test.depth_limit\\)"));
+}
 // Six points, three channels each.
 TEST_F(QuadraticWarningTest, ColoursBeyondTheLevels) {
   EXPECT_THAT(report_of("", usual_, "100.0"), HasSubstr("18 colours at points are beyond the levels and clamped"));

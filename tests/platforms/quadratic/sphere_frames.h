@@ -21,10 +21,8 @@ inline run::Inputs sphere_inputs(const std::string& mesh, const std::vector<std:
                           source + "/configs/scenes/sphere_" + mesh + ".toml", overrides);
 }
 
-// Calls visit(triangle, span, pixels) for every span of the first frame, in the order of drawing.
-inline void visit_spans(
-    const run::Inputs& inputs,
-    const std::function<void(const set_up::ColourTriangle&, const span_unit::Span&, const SpanPixels&)>& visit) {
+// Calls visit(work) for every triangle of the first frame's set-up, in the order of drawing.
+inline void visit_triangles(const run::Inputs& inputs, const std::function<void(const host::SetUpWork&)>& visit) {
   const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
   const scene::Scene& scene = *inputs.content->scene;
   host::ResidentScene resident;
@@ -34,13 +32,22 @@ inline void visit_spans(
     surfaces.push_back({m.ambient * m.colour, m.diffuse * m.colour, glm::dvec3(m.specular), m.exponent});
   host::SetUpWork work(resident, machine.set_up, machine.set_up_format(), surfaces,
                        {geometry::Model::phong, scene.specular_gate, scene.ambient_light});
+  work.begin_frame(scene::pose(scene, 0, machine.viewport().columns, machine.viewport().lines), false);
+  while (work.next()) visit(work);
+}
+
+// Calls visit(triangle, span, pixels) for every span of the first frame, in the order of drawing.
+inline void visit_spans(
+    const run::Inputs& inputs,
+    const std::function<void(const set_up::ColourTriangle&, const span_unit::Span&, const SpanPixels&)>& visit) {
+  const auto& machine = std::get<quadratic::Machine>(inputs.content->machine);
   span_unit::SpanUnit unit(machine.span_unit, static_cast<std::uint32_t>(machine.video.columns),
                            static_cast<std::uint32_t>(machine.video.lines));
-  work.begin_frame(scene::pose(scene, 0, machine.viewport().columns, machine.viewport().lines), false);
-  while (work.next())
+  visit_triangles(inputs, [&](const host::SetUpWork& work) {
     for (const set_up::ColourTriangle& triangle : work.coloured())
       for (const span_unit::Span& span : unit.draw(set_up::span_load(triangle, machine.set_up_format().span)).spans)
         visit(triangle, span, pixels_of(span, span_unit::pixel_format(machine.span_unit)));
+  });
 }
 
 // The colour that the triangle's coefficients have at a pixel, in double and not clamped.

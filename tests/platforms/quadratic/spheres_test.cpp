@@ -136,6 +136,17 @@ INSTANTIATE_TEST_SUITE_P(Table, SphereTest, testing::ValuesIn(kTable), [](const 
   return "Of" + std::string(g.mesh) + "Exponent" + std::to_string(g.exponent) + g.method + g.points;
 });
 
+// Comparing colours at the centre misses a highlight that is beside it; the signs of H1 and H2 at the corners do not.
+TEST(Spheres, H1AndH2FindAHighlightBesideTheCentre) {
+  const auto with = [](const char* points) {
+    return distance(test::sphere_inputs("168", {"set_up.method=quadratic_adaptive", "material[0].exponent=50",
+                                                std::string("highlight_test.points=") + points}));
+  };
+  const Distance at_centre = with("centroid"), by_signs = with("h1h2");
+  EXPECT_LT(by_signs.rmse, 0.5 * at_centre.rmse);
+  EXPECT_LT(by_signs.largest, 0.3 * at_centre.largest);
+}
+
 // The further test points find a highlight that is beside the centre.
 TEST(Spheres, FurtherTestPointsKeepTheErrorSmall) {
   const Distance d = distance(test::sphere_inputs(
