@@ -41,6 +41,8 @@ if(RASTERTLM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # Kernels that are compiled for several instruction sets and chosen at run time: what their sources may use.
-set(RASTERTLM_AVX2 -mavx2 -mbmi -mbmi2 -mpopcnt)
+# Square roots that set no errno are vectors as well. Aligned, a loop costs the same wherever the linker puts it.
+set(RASTERTLM_BASELINE -fno-math-errno -falign-functions=64 -falign-loops=64)
+set(RASTERTLM_AVX2 ${RASTERTLM_BASELINE} -mavx2 -mbmi -mbmi2 -mpopcnt)
 set(RASTERTLM_AVX512 ${RASTERTLM_AVX2} -mavx512f -mavx512bw -mavx512vl -mavx512dq -mavx512cd -mavx512vbmi -mavx512vpopcntdq
   -mprefer-vector-width=512 -Wno-uninitialized -Wno-maybe-uninitialized)  # GCC 12 warns of its own intrinsics

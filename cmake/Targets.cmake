@@ -12,12 +12,11 @@ function(rastertlm_library name folder)
   endif()
   if(sources)
     # Kernels that are chosen at run time: such a file includes nothing that others share, so that no code of it is used elsewhere.
-    # Their square roots set no errno: they are vectors as well.
     foreach(set baseline avx2 avx512)
       set(kernels ${sources})
       list(FILTER kernels INCLUDE REGEX "_${set}\\.cpp$")
       string(TOUPPER "RASTERTLM_${set}" flags)
-      set_source_files_properties(${kernels} PROPERTIES COMPILE_OPTIONS "${${flags}};-fno-math-errno")
+      set_source_files_properties(${kernels} PROPERTIES COMPILE_OPTIONS "${${flags}}")
     endforeach()
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC rastertlm_options ${LIB_LINKS})

@@ -103,12 +103,13 @@ void SetUpWork::count_paths() {
       vertex = set_up::transform_vertex<Number>(glm::dvec3(0.0), glm::dvec3(0, 0, 1), middle, glm::dmat3(1.0));
     set_up::pieces(triangle, grid, format_.viewport);
   });
-  corner_cost_.multiply = 3;  // two coordinates onto the grid, and depth
-  corner_cost_.add = 1;
-  corner_cost_.convert = 2;
-  position_cost_.multiply = 12 + 3;
-  position_cost_.add = 12;
-  position_cost_.divide = 1;
+  constexpr std::uint64_t kCorners = 3;
+  corner_costs_.multiply = kCorners * 3;  // two coordinates onto the grid, and depth
+  corner_costs_.add = kCorners;
+  corner_costs_.convert = kCorners * 2;
+  position_costs_.multiply = kCorners * (12 + 3);
+  position_costs_.add = kCorners * 12;
+  position_costs_.divide = kCorners;
 }
 
 void SetUpWork::begin_frame(const geometry::Pose& pose, bool viewer_at_eye) {
@@ -283,13 +284,11 @@ void SetUpWork::colour(const set_up::ScreenTriangle<double>& piece, std::size_t 
     point.at = {at.x * (std::int64_t{1} << finer), at.y * (std::int64_t{1} << finer)};
     point.inverse_w = corner.inverse_w;
     point.normal = corner.normal;
-    triangle_operations_ += corner_cost_;
-    if (lighting_.needs_positions()) {
-      point.position = eye_position(corner);
-      triangle_operations_ += position_cost_;
-    }
+    if (lighting_.needs_positions()) point.position = eye_position(corner);
     request.depth[i] = std::clamp(corner.z, 0.0, 1.0) * depth_range_ + near_word_;
   }
+  triangle_operations_ += corner_costs_;
+  if (lighting_.needs_positions()) triangle_operations_ += position_costs_;
   const bool chosen = parameters_.method != ShadingMethod::gouraud_phong || request.highlighted;
   request.by_pixels = shader_ != nullptr && chosen;
   const std::size_t before = coloured_.size();

@@ -102,8 +102,8 @@ class SetUpWork {
   set_up::TriangleColourer colourer_;
   set_up::SpanLoadCosts load_costs_;
   geometry::OperationCounts inside_cost_;    // a triangle's corners to the screen, none outside the band
-  geometry::OperationCounts corner_cost_;    // to the grid, and the depth word
-  geometry::OperationCounts position_cost_;  // a corner's, where lights need it
+  geometry::OperationCounts corner_costs_;    // all three to the grid, and their depth words
+  geometry::OperationCounts position_costs_;  // the corners', where lights need them
 
   geometry::Pose pose_;
   glm::dmat4 clip_to_eye_{1.0};

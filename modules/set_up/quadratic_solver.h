@@ -162,19 +162,25 @@ struct Offsets {
 
 // All channels of a triangle; the forms may be undefined (is_defined).
 template <class T, std::size_t kCount>
-std::array<QuadraticForm<T>, kCount> solve(Solver solver, const Offsets<T>& at,
-                                           const std::array<SixColours<T>, kCount>& colours) {
-  std::array<QuadraticForm<T>, kCount> forms;
+void solve(Solver solver, const Offsets<T>& at, const std::array<SixColours<T>, kCount>& colours,
+           std::array<QuadraticForm<T>, kCount>& forms) {
   if (solver == Solver::barycentric) {
     const BarycentricSolver<T> shared(at.x2, at.y2, at.x3, at.y3);
     for (std::size_t c = 0; c < kCount; ++c) forms[c] = shared.solve(colours[c]);
-    return forms;
+    return;
   }
   const auto size = [](const T& y) { return y < T(0.0) ? -y : y; };
   const bool exchange = solver == Solver::published_swapped && size(at.y2) < size(at.y3);
   const PublishedSolver<T> printed =
       exchange ? PublishedSolver<T>(at.x3, at.y3, at.x2, at.y2) : PublishedSolver<T>(at.x2, at.y2, at.x3, at.y3);
   for (std::size_t c = 0; c < kCount; ++c) forms[c] = printed.solve(exchange ? exchanged(colours[c]) : colours[c]);
+}
+
+template <class T, std::size_t kCount>
+std::array<QuadraticForm<T>, kCount> solve(Solver solver, const Offsets<T>& at,
+                                           const std::array<SixColours<T>, kCount>& colours) {
+  std::array<QuadraticForm<T>, kCount> forms;
+  solve(solver, at, colours, forms);
   return forms;
 }
 

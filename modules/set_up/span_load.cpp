@@ -20,7 +20,7 @@ using Number = geometry::Counted<double>;
 
 // The first line or column at or after a coordinate.
 std::int64_t first_sample(std::int64_t steps, int fraction_bits) {
-  return ceil_div(steps, std::int64_t{1} << fraction_bits);
+  return (steps + (std::int64_t{1} << fraction_bits) - 1) >> fraction_bits;
 }
 
 // The word nearest to `value` * 2^fraction_bits, modulo 2^64. Large ones are whole numbers, and so are their

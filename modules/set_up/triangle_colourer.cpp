@@ -37,7 +37,6 @@ std::array<QuadraticForm<double>, 3> solve_in(Solver solver, const Offsets<doubl
 std::array<QuadraticForm<double>, 3> solve_as(const SetUpParameters& parameters, const Offsets<double>& at,
                                               const std::array<SixColours<double>, 3>& colours) {
   const Solver solver = parameters.solver;
-  if (parameters.arithmetic == SetUpArithmetic::double_precision) return solve_in<double>(solver, at, colours);
   if (parameters.arithmetic == SetUpArithmetic::single_precision) return solve_in<float>(solver, at, colours);
   switch (parameters.fixed_fraction_bits) {
     case 16:
@@ -177,7 +176,7 @@ void TriangleColourer::draw_parts(const ColourRequest& request, const Knots& kno
 
 void TriangleColourer::light_knots(const ColourRequest& request, bool turned, Knots& knots) {
   auto& points = knots.point;
-  std::copy(request.corners.begin(), request.corners.end(), points.begin());
+  for (std::size_t i = 0; i < 3; ++i) points[i] = request.corners[i];
   if (turned)
     for (std::size_t i = 0; i < 3; ++i) points[i].normal = -points[i].normal;
   const bool linear = parameters_.linear();
@@ -350,7 +349,10 @@ void TriangleColourer::solve_quadratic(const Knots& knots, ColourTriangle& trian
     colours[static_cast<std::size_t>(c)] = {level(0),         level(1),         level(2),
                                             level(kMiddle12), level(kMiddle13), level(kMiddle23)};
   }
-  triangle.colour = solve_as(parameters_, offsets_of(triangle), colours);
+  if (parameters_.arithmetic == SetUpArithmetic::double_precision)
+    solve(parameters_.solver, offsets_of(triangle), colours, triangle.colour);
+  else
+    triangle.colour = solve_as(parameters_, offsets_of(triangle), colours);
   if (std::all_of(triangle.colour.begin(), triangle.colour.end(), is_defined<double>)) return;
   ++counts_.flat_undefined;
   draw_flat(knots, triangle);

@@ -45,7 +45,7 @@ double Clock::frequency_hz() const {
   return 1e12 * static_cast<double>(denominator_) / static_cast<double>(numerator_ps_);
 }
 
-std::uint64_t Clock::picoseconds(Cycles n) const {
+std::uint64_t Clock::rounded_picoseconds(Cycles n) const {
   return quotient(static_cast<Wide>(n.count()) * numerator_ps_ + denominator_ / 2, denominator_);
 }
 

@@ -42,7 +42,10 @@ class Clock {
   double period_ns() const;
 
   // Counted first, converted once: the end of cycle `n` in picoseconds, rounded to nearest (n * period < 2^63 ps).
-  std::uint64_t picoseconds(Cycles n) const;
+  std::uint64_t picoseconds(Cycles n) const {
+    // Most clocks have a whole number of picoseconds.
+    return denominator_ == 1 ? n.count() * numerator_ps_ : rounded_picoseconds(n);
+  }
   double seconds(Cycles n) const;
   // round(seconds / period).
   Cycles cycles_round(double seconds) const;
@@ -51,6 +54,7 @@ class Clock {
 
  private:
   Clock(std::string name, std::uint64_t numerator_ps, std::uint64_t denominator);
+  std::uint64_t rounded_picoseconds(Cycles n) const;
   std::string name_;
   std::uint64_t numerator_ps_ = 1;
   std::uint64_t denominator_ = 1;
