@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -70,28 +71,8 @@ void check_figures(const SweepTable& table) {
                                   " figures for " + std::to_string(table.objectives.size()) + " objectives");
 }
 
-}  // namespace
-
-bool is_compared(const Row& row) { return row.state == State::done && row.allowed; }
-
-int compare_figures(const std::optional<double>& a, const std::optional<double>& b, Sense sense) {
-  const bool no_a = is_missing(a);
-  const bool no_b = is_missing(b);
-  if (no_a || no_b) return static_cast<int>(no_a) - static_cast<int>(no_b);
-  const int order = static_cast<int>(*a > *b) - static_cast<int>(*a < *b);
-  return sense == Sense::minimise ? order : -order;
-}
-
-Front find_front(const SweepTable& table) {
-  check_figures(table);
-  Front front;
-  front.compared.resize(table.rows.size());
-  front.beaten_by.resize(table.rows.size());
-  std::vector<std::size_t> rows;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    front.compared[row] = is_compared(table.rows[row]);
-    if (front.compared[row]) rows.push_back(row);
-  }
+// The front of these rows, which are of one case.
+void add_front(const SweepTable& table, const std::vector<std::size_t>& rows, Front& front) {
   const RankTable ranks = ranks_of(table, rows);
 
   // Places in lexicographic order; of equal ones the first stands for all. place_of: of each compared row.
@@ -124,6 +105,39 @@ Front find_front(const SweepTable& table) {
       front.rows.push_back(rows[i]);
     }
   }
+}
+
+}  // namespace
+
+bool is_compared(const Row& row) { return row.state == State::done && row.allowed; }
+
+int compare_figures(const std::optional<double>& a, const std::optional<double>& b, Sense sense) {
+  const bool no_a = is_missing(a);
+  const bool no_b = is_missing(b);
+  if (no_a || no_b) return static_cast<int>(no_a) - static_cast<int>(no_b);
+  const int order = static_cast<int>(*a > *b) - static_cast<int>(*a < *b);
+  return sense == Sense::minimise ? order : -order;
+}
+
+std::vector<std::size_t> case_of(const SweepTable& table, const Row& row) {
+  std::vector<std::size_t> values;
+  for (std::size_t a = 0; a < table.axes.size(); ++a)
+    if (table.axes[a].given) values.push_back(row.values.at(a));
+  return values;
+}
+
+Front find_front(const SweepTable& table) {
+  check_figures(table);
+  Front front;
+  front.compared.resize(table.rows.size());
+  front.beaten_by.resize(table.rows.size());
+  std::map<std::vector<std::size_t>, std::vector<std::size_t>> cases;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    front.compared[row] = is_compared(table.rows[row]);
+    if (front.compared[row]) cases[case_of(table, table.rows[row])].push_back(row);
+  }
+  for (const auto& [values, rows] : cases) add_front(table, rows, front);
+  std::sort(front.rows.begin(), front.rows.end());
   return front;
 }
 

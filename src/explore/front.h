@@ -5,6 +5,7 @@
 // not beat each other: all of them are on the front, or none. A missing figure (or one that is no number) is worse than
 // any figure and equal to another missing one: a point with one is on the front only for what it has. An infinite
 // figure is a figure. Without objectives all compared points are equal, so all are on the front.
+// Points of different cases, which are the values of given axes, do not beat each other: each case has a front.
 #pragma once
 
 #include <cstddef>
@@ -21,6 +22,9 @@ struct Front {
   std::vector<std::optional<std::size_t>> beaten_by;  // a row each: of the front's rows the first that beats it
   bool has(std::size_t row) const { return compared[row] && !beaten_by[row]; }
 };
+
+// The row's values of the axes that are given, in their order; empty where none is.
+std::vector<std::size_t> case_of(const SweepTable& table, const Row& row);
 
 // Does this row take part?
 bool is_compared(const Row& row);

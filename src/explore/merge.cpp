@@ -54,15 +54,19 @@ constexpr std::array<const char*, 10> kJoin{
     "0, began, started FROM part.session"};
 
 // The axes, objectives and constraints of a sweep that is new here.
-constexpr std::array<const char*, 4> kDescription{
-    "INSERT OR IGNORE INTO main.axis SELECT s.id, position, path, unit FROM part.axis a JOIN part.sweep t ON t.id = "
+constexpr std::array<const char*, 5> kDescription{
+    "INSERT OR IGNORE INTO main.axis SELECT s.id, position, path, unit, given FROM part.axis a JOIN part.sweep t ON "
+    "t.id = "
     "a.sweep JOIN main.sweep s ON s.digest = t.digest",
-    "INSERT OR IGNORE INTO main.choice SELECT s.id, axis, position, text FROM part.choice a JOIN part.sweep t ON t.id "
+    "INSERT OR IGNORE INTO main.choice SELECT s.id, axis, position, text, curve FROM part.choice a JOIN part.sweep t "
+    "ON t.id "
     "= "
     "a.sweep JOIN main.sweep s ON s.digest = t.digest",
-    "INSERT OR IGNORE INTO main.objective SELECT s.id, position, path, unit, sense FROM part.objective a JOIN "
-    "part.sweep "
-    "t ON t.id = a.sweep JOIN main.sweep s ON s.digest = t.digest",
+    "INSERT OR IGNORE INTO main.objective SELECT s.id, position, path, unit, sense, a.name, logarithmic FROM "
+    "part.objective a JOIN part.sweep t ON t.id = a.sweep JOIN main.sweep s ON s.digest = t.digest",
+    "INSERT OR IGNORE INTO main.further SELECT s.id, position, path, unit, a.name FROM part.further a JOIN part.sweep "
+    "t "
+    "ON t.id = a.sweep JOIN main.sweep s ON s.digest = t.digest",
     "INSERT OR IGNORE INTO main.condition SELECT s.id, position, text FROM part.condition a JOIN part.sweep t ON t.id "
     "= "
     "a.sweep JOIN main.sweep s ON s.digest = t.digest"};

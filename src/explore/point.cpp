@@ -79,11 +79,14 @@ std::string PointMaker::sweep_digest() {
   for (const std::string& file : sweep_.machines) text += sha256_hex(text_of(file));
   for (const std::string& file : sweep_.scenes) text += sha256_hex(text_of(file));
   for (const Vary& axis : sweep_.axes) {
-    text += fmt::format("axis {} {}\n", axis.path, sweep_.baseline && axis.start ? *axis.start : 0);
-    for (const Choice& choice : axis.choices) text += choice.text + '\n' + explore::text_of(choice.sets);
+    text += fmt::format("axis {} {} {}\n", axis.path, sweep_.baseline && axis.start ? *axis.start : 0, axis.given);
+    for (const Choice& choice : axis.choices)
+      text += fmt::format("{}\n{}\n{}", choice.text, choice.curve, explore::text_of(choice.sets));
   }
   for (const Objective& one : sweep_.objectives)
-    text += fmt::format("{} {}\n", one.path, one.sense == Sense::minimise ? "minimise" : "maximise");
+    text += fmt::format("{} {} {}\n{}\n", one.path, one.sense == Sense::minimise ? "minimise" : "maximise",
+                        one.logarithmic, one.name);
+  for (const FurtherFigure& one : sweep_.further) text += fmt::format("column {}\n{}\n", one.path, one.name);
   for (const Constraint& one : sweep_.constraints) text += one.text + '\n';
   return sha256_hex(text);
 }

@@ -51,6 +51,7 @@ class Runner {
   Runner(const Sweep& sweep, const Design& design, Store& store, const RunOptions& options)
       : sweep_(sweep), design_(design), store_(store), options_(options), maker_(sweep) {
     for (const Objective& objective : sweep.objectives) add_figure(objective.path);
+    for (const FurtherFigure& column : sweep.further) add_figure(column.path);
     for (const Constraint& constraint : sweep.constraints) add_figure(constraint.path);
     status_.points = design.size() / options.shards + (design.size() % options.shards > options.shard ? 1 : 0);
   }
@@ -235,15 +236,18 @@ class Runner {
     const report::Figures figures(report, store_.database().file());
     Diagnostics diagnostics;
     for (std::size_t i = 0; i < sweep_.objectives.size(); ++i)
-      if (!sweep_.optional[i]) add_absent(figures, sweep_.objectives[i].path, sweep_.lines[i], diagnostics);
+      add_absent(figures, sweep_.objectives[i].path, sweep_.written_objectives[i], diagnostics);
+    for (std::size_t i = 0; i < sweep_.further.size(); ++i)
+      add_absent(figures, sweep_.further[i].path, sweep_.written_further[i], diagnostics);
     for (const Constraint& constraint : sweep_.constraints)
-      add_absent(figures, constraint.path, constraint.line, diagnostics);
+      add_absent(figures, constraint.path, {false, constraint.line}, diagnostics);
     diagnostics.throw_if_any();
   }
 
-  void add_absent(const report::Figures& figures, const std::string& path, int line, Diagnostics& diagnostics) const {
-    const std::string absent = parameter_of(path).empty() ? figures.absent(path) : "";
-    if (!absent.empty()) diagnostics.add({sweep_.file, line, path, absent});
+  void add_absent(const report::Figures& figures, const std::string& path, const Sweep::Written& written,
+                  Diagnostics& diagnostics) const {
+    const std::string absent = parameter_of(path).empty() && !written.optional ? figures.absent(path) : "";
+    if (!absent.empty()) diagnostics.add({sweep_.file, written.line, path, absent});
   }
 
   const Sweep& sweep_;

@@ -20,10 +20,12 @@ constexpr const char* kTables = R"(
 CREATE TABLE sweep(id INTEGER PRIMARY KEY, entered INTEGER NOT NULL, digest TEXT NOT NULL UNIQUE, name TEXT NOT NULL,
   question TEXT NOT NULL, points INTEGER NOT NULL, baseline INTEGER);
 CREATE TABLE axis(sweep INTEGER, position INTEGER, path TEXT NOT NULL, unit TEXT NOT NULL,
-  PRIMARY KEY(sweep, position)) WITHOUT ROWID;
-CREATE TABLE choice(sweep INTEGER, axis INTEGER, position INTEGER, text TEXT NOT NULL,
+  given INTEGER NOT NULL, PRIMARY KEY(sweep, position)) WITHOUT ROWID;
+CREATE TABLE choice(sweep INTEGER, axis INTEGER, position INTEGER, text TEXT NOT NULL, curve TEXT NOT NULL,
   PRIMARY KEY(sweep, axis, position)) WITHOUT ROWID;
 CREATE TABLE objective(sweep INTEGER, position INTEGER, path TEXT NOT NULL, unit TEXT NOT NULL, sense TEXT NOT NULL,
+  name TEXT NOT NULL, logarithmic INTEGER NOT NULL, PRIMARY KEY(sweep, position)) WITHOUT ROWID;
+CREATE TABLE further(sweep INTEGER, position INTEGER, path TEXT NOT NULL, unit TEXT NOT NULL, name TEXT NOT NULL,
   PRIMARY KEY(sweep, position)) WITHOUT ROWID;
 CREATE TABLE condition(sweep INTEGER, position INTEGER, text TEXT NOT NULL, PRIMARY KEY(sweep, position)) WITHOUT ROWID;
 CREATE TABLE point(sweep INTEGER, number INTEGER, choices TEXT NOT NULL, result INTEGER,
@@ -134,23 +136,32 @@ void Store::add_sweep(const Sweep& sweep, const Design& design, const std::strin
     add.bind_null(5);
   add.run();
   const std::int64_t id = database_.last_row();
-  Statement axis(database_, "INSERT INTO axis VALUES (?, ?, ?, ?)");
-  Statement choice(database_, "INSERT INTO choice VALUES (?, ?, ?, ?)");
+  Statement axis(database_, "INSERT INTO axis VALUES (?, ?, ?, ?, ?)");
+  Statement choice(database_, "INSERT INTO choice VALUES (?, ?, ?, ?, ?)");
   for (std::size_t i = 0; i < sweep.axes.size(); ++i) {
     const auto place = static_cast<std::int64_t>(i);
-    axis.bind(1, id).bind(2, place).bind(3, sweep.axes[i].path).bind(4, sweep.axes[i].unit).run();
+    axis.bind(1, id).bind(2, place).bind(3, sweep.axes[i].path).bind(4, sweep.axes[i].unit);
+    axis.bind(5, static_cast<std::int64_t>(sweep.axes[i].given)).run();
     for (std::size_t k = 0; k < sweep.axes[i].choices.size(); ++k)
       choice.bind(1, id)
           .bind(2, place)
           .bind(3, static_cast<std::int64_t>(k))
           .bind(4, sweep.axes[i].choices[k].text)
+          .bind(5, sweep.axes[i].choices[k].curve)
           .run();
   }
-  Statement objective(database_, "INSERT INTO objective VALUES (?, ?, ?, ?, ?)");
+  Statement objective(database_, "INSERT INTO objective VALUES (?, ?, ?, ?, ?, ?, ?)");
   for (std::size_t i = 0; i < sweep.objectives.size(); ++i) {
     const Objective& one = sweep.objectives[i];
     objective.bind(1, id).bind(2, static_cast<std::int64_t>(i)).bind(3, one.path).bind(4, one.unit);
-    objective.bind(5, std::string(one.sense == Sense::minimise ? "minimise" : "maximise")).run();
+    objective.bind(5, std::string(one.sense == Sense::minimise ? "minimise" : "maximise")).bind(6, one.name);
+    objective.bind(7, static_cast<std::int64_t>(one.logarithmic)).run();
+  }
+  Statement column(database_, "INSERT INTO further VALUES (?, ?, ?, ?, ?)");
+  for (std::size_t i = 0; i < sweep.further.size(); ++i) {
+    const FurtherFigure& one = sweep.further[i];
+    column.bind(1, id).bind(2, static_cast<std::int64_t>(i)).bind(3, one.path).bind(4, one.unit).bind(5, one.name);
+    column.run();
   }
   Statement condition(database_, "INSERT INTO condition VALUES (?, ?, ?)");
   for (std::size_t i = 0; i < sweep.constraints.size(); ++i)

@@ -18,7 +18,7 @@
 
 namespace rastertlm::explore {
 
-inline constexpr std::int64_t kStoreSchema = 1;
+inline constexpr std::int64_t kStoreSchema = 2;
 
 struct PointResult {
   std::string key;  // of the configuration: machine, scene, frames, program

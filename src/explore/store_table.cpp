@@ -33,26 +33,38 @@ class Reading {
 
  private:
   void axes() {
-    Statement axis(database_, "SELECT path, unit FROM axis WHERE sweep = ? ORDER BY position");
+    Statement axis(database_, "SELECT path, unit, given FROM axis WHERE sweep = ? ORDER BY position");
     axis.bind(1, id_);
-    while (axis.step()) table_.axes.push_back({axis.text(0), axis.text(1), {}});
-    Statement choice(database_, "SELECT axis, text FROM choice WHERE sweep = ? ORDER BY axis, position");
+    while (axis.step()) table_.axes.push_back({axis.text(0), axis.text(1), {}, {}, axis.integer(2) != 0});
+    Statement choice(database_, "SELECT axis, text, curve FROM choice WHERE sweep = ? ORDER BY axis, position");
     choice.bind(1, id_);
-    while (choice.step()) table_.axes.at(static_cast<std::size_t>(choice.integer(0))).values.push_back(choice.text(1));
+    while (choice.step()) {
+      Axis& own = table_.axes.at(static_cast<std::size_t>(choice.integer(0)));
+      own.values.push_back(choice.text(1));
+      if (!choice.text(2).empty()) own.curves.push_back(choice.text(2));
+    }
   }
 
   void objectives() {
-    Statement objective(database_, "SELECT path, unit, sense FROM objective WHERE sweep = ? ORDER BY position");
+    Statement objective(database_,
+                        "SELECT path, unit, sense, name, logarithmic FROM objective WHERE sweep = ? ORDER BY position");
     objective.bind(1, id_);
     while (objective.step()) {
       const Sense sense = objective.text(2) == "maximise" ? Sense::maximise : Sense::minimise;
-      table_.objectives.push_back({objective.text(0), objective.text(1), sense});
+      table_.objectives.push_back(
+          {objective.text(0), objective.text(1), sense, objective.text(3), objective.integer(4) != 0});
     }
+    Statement column(database_, "SELECT path, unit, name FROM further WHERE sweep = ? ORDER BY position");
+    column.bind(1, id_);
+    while (column.step()) table_.further.push_back({column.text(0), column.text(1), column.text(2)});
     const std::string report = store_.any_report();
     if (!report.empty()) {
       const report::Figures figures(report, database_.file());
-      for (Objective& one : table_.objectives)
+      const auto add_unit = [&](auto& one) {
         if (one.unit.empty() && parameter_of(one.path).empty()) one.unit = figures.unit(one.path);
+      };
+      std::ranges::for_each(table_.objectives, add_unit);
+      std::ranges::for_each(table_.further, add_unit);
     }
     Statement condition(database_, "SELECT text FROM condition WHERE sweep = ? ORDER BY position");
     condition.bind(1, id_);
@@ -74,6 +86,7 @@ class Reading {
       row.number = static_cast<std::uint64_t>(point.integer(0));
       row.values = choices(point.text(1));
       row.figures.resize(table_.objectives.size());
+      row.further.resize(table_.further.size());
       if (!point.is_null(2)) {
         row.state = point.text(3) == "failed" ? State::failed : State::done;
         row.error = point.text(4);
@@ -104,6 +117,7 @@ class Reading {
   void fill(std::int64_t result, Row& row) {
     for (std::size_t i = 0; i < table_.objectives.size(); ++i)
       row.figures[i] = figure(result, table_.objectives[i].path);
+    for (std::size_t i = 0; i < table_.further.size(); ++i) row.further[i] = figure(result, table_.further[i].path);
     row.allowed = std::all_of(constraints_.begin(), constraints_.end(),
                               [&](const Constraint& one) { return meets(one, figure(result, one.path)); });
   }

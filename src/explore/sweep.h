@@ -17,6 +17,7 @@ struct Choice {
   std::string text;                    // as the reader knows it
   std::vector<config::Override> sets;  // parameters and their values
   std::string file;                    // of an axis of machines or scenes: the file
+  std::string curve{};                 // of which it is a point; empty: the axis has none
 };
 
 // A range without steps, from which random designs draw.
@@ -36,6 +37,7 @@ struct Vary {
   std::optional<Span> span;          // then a design makes the choices
   std::optional<std::size_t> start;  // the choice of the baseline
   int line = 0;                      // in the sweep's file; 0: of machines and scenes
+  bool given = false;                // points are compared only where it is the same
 };
 
 enum class Comparison { less, at_most, equal, not_equal, at_least, greater };
@@ -69,9 +71,15 @@ struct Sweep {
   bool reference = true;
   bool thumbnails = true;
   std::vector<Vary> axes;
+  // What a machine may lack, and the line in the sweep's file.
+  struct Written {
+    bool optional = false;
+    int line = 0;
+  };
   std::vector<Objective> objectives;
-  std::vector<bool> optional;  // an objective each: a machine may have no such figure
-  std::vector<int> lines;      // an objective each: in the sweep's file
+  std::vector<Written> written_objectives;  // an objective each
+  std::vector<FurtherFigure> further;
+  std::vector<Written> written_further;  // one each
   std::vector<Constraint> constraints;
   bool baseline = false;  // every axis has a start, and the point of all of them belongs to the sweep
 };

@@ -21,7 +21,7 @@ using config::EntryKind;
 constexpr std::int64_t kSchema = 1;
 constexpr double kAny = parameter::kAnyReal;
 // Keys that hold values of any parameter, or lists of text: no declaration has them.
-constexpr std::array<const char*, 5> kOurs{"machine", "scene", "constraints", "set", "baseline"};
+constexpr std::array<const char*, 6> kOurs{"machine", "scene", "constraints", "given", "set", "baseline"};
 constexpr std::int64_t kMostPoints = 1'000'000'000;
 
 parameter::About about(const char* description, bool required = false) {
@@ -51,7 +51,7 @@ std::optional<InVary> in_vary(const std::string& path) {
 
 bool is_ours(const Entry& entry) {
   const std::string& path = entry.path;
-  if (path == "machine" || path == "scene" || path == "constraints") return true;
+  if (path == "machine" || path == "scene" || path == "constraints" || path == "given") return true;
   if (is_below(path, "set") || is_below(path, "baseline")) return true;
   const std::optional<InVary> vary = in_vary(path);
   return vary && (vary->rest == "values" || vary->rest.starts_with("variant["));
@@ -108,6 +108,7 @@ class Reading {
       if (path == "machine") words(entry, sweep_.machines);
       if (path == "scene") words(entry, sweep_.scenes);
       if (path == "constraints") words(entry, sweep_.constraints);
+      if (path == "given") words(entry, sweep_.given);
       if (path == "baseline" && !value) sweep_.has_baseline = true;
       if ((path == "set" || path == "baseline") && value) refuse(entry, "is a table of parameters and their values");
       if (value && path.starts_with("set.")) sweep_.sets.push_back(setting(entry, path.substr(4)));
@@ -167,12 +168,16 @@ class Reading {
     if (vary.variants.empty()) return;
     Variant& variant = vary.variants.back();
     const bool value = entry.kind == EntryKind::value;
-    if (key == "name" && value && std::holds_alternative<std::string>(entry.value.value))
-      variant.name = std::get<std::string>(entry.value.value);
+    const auto* text = value ? std::get_if<std::string>(&entry.value.value) : nullptr;
+    if (key == "name" && text != nullptr)
+      variant.name = *text;
+    else if (key == "curve" && text != nullptr)
+      variant.curve = *text;
     else if (value && key.starts_with("set."))
       variant.sets.push_back(setting(entry, key.substr(4)));
     else if (value || !is_below(key, "set"))
-      refuse(entry, "unknown key; a variant has a name, a text, and a table `set` of parameters and their values");
+      refuse(entry,
+             "unknown key; a variant has a name and a curve, texts, and a table `set` of parameters and their values");
   }
 
   const config::Document& document_;
@@ -197,7 +202,16 @@ void VaryFile::declare(parameter::Table& table) {
 void ObjectiveFile::declare(parameter::Table& table) {
   table.text("path", path,
              about("A figure of report.json, or a number of the machine: machine.host.computation_units.", true));
+  table.text("name", name, about("That a reader knows it by; empty: made from the path."));
   table.choice("sense", sense, {"minimise", "maximise"}, about("Which way is better.", true));
+  table.choice("scale", scale, {"linear", "log"}, about("How it is drawn on the page."));
+  table.boolean("optional", optional, about("Whether machines of the sweep may have no such figure."));
+}
+
+void ColumnFile::declare(parameter::Table& table) {
+  table.text("path", path,
+             about("A figure, as an objective's, that is shown beside them and counts for nothing.", true));
+  table.text("name", name, about("That a reader knows it by; empty: made from the path."));
   table.boolean("optional", optional, about("Whether machines of the sweep may have no such figure."));
 }
 
@@ -222,6 +236,7 @@ void SweepFile::declare(parameter::Table& table) {
   table.boolean("thumbnails", thumbnails, about("Whether a small picture of each point is kept."));
   table.list("vary", vary, "What varies: a parameter with values or a range, or a group with variants.");
   table.list("objective", objectives, "What counts.");
+  table.list("column", columns, "What is shown beside it.");
 }
 
 SweepFile read_sweep_file(const std::string& file, Diagnostics& diagnostics) {

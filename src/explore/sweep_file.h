@@ -24,6 +24,7 @@ struct Variant {
   std::string name;
   std::vector<Setting> sets;
   int line = 0;
+  std::string curve{};
 };
 
 enum class Spacing { linear, logarithmic };
@@ -48,7 +49,17 @@ struct VaryFile {
 
 struct ObjectiveFile {
   std::string path;
+  std::string name;
   Sense sense = Sense::minimise;
+  Spacing scale = Spacing::linear;
+  bool optional = false;
+
+  void declare(parameter::Table& table);
+};
+
+struct ColumnFile {
+  std::string path;
+  std::string name;
   bool optional = false;
 
   void declare(parameter::Table& table);
@@ -71,10 +82,12 @@ struct SweepFile {
   bool thumbnails = true;
   std::vector<VaryFile> vary;
   std::vector<ObjectiveFile> objectives;
+  std::vector<ColumnFile> columns;
   // What no declaration knows:
   std::vector<Word> machines;
   std::vector<Word> scenes;
   std::vector<Word> constraints;
+  std::vector<Word> given;
   std::vector<Setting> sets;
   std::vector<Setting> baseline;
   bool has_baseline = false;

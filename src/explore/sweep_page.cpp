@@ -63,20 +63,29 @@ const char* state_text(State state) {
 }
 
 std::string axis_json(const Axis& axis, const std::string& name) {
-  return fmt::format(R"({{"path":{},"name":{},"unit":{},"values":{}}})", json_string(axis.path), json_string(name),
-                     json_string(axis.unit), json_texts(axis.values));
+  return fmt::format(R"({{"path":{},"name":{},"unit":{},"values":{},"curves":{},"given":{}}})", json_string(axis.path),
+                     json_string(name), json_string(axis.unit), json_texts(axis.values), json_texts(axis.curves),
+                     axis.given);
 }
 
 std::string objective_json(const Objective& objective, const std::string& name) {
-  return fmt::format(R"({{"path":{},"name":{},"unit":{},"most":{}}})", json_string(objective.path), json_string(name),
-                     json_string(objective.unit), objective.sense == Sense::maximise);
+  return fmt::format(R"({{"path":{},"name":{},"unit":{},"most":{},"logarithmic":{}}})", json_string(objective.path),
+                     json_string(name), json_string(objective.unit), objective.sense == Sense::maximise,
+                     objective.logarithmic);
+}
+
+std::string further_json(const FurtherFigure& figure, const std::string& name) {
+  return fmt::format(R"({{"path":{},"name":{},"unit":{}}})", json_string(figure.path), json_string(name),
+                     json_string(figure.unit));
 }
 
 std::string row_json(const SweepTable& table, const Front& front, std::size_t r) {
   const Row& row = table.rows[r];
+  std::vector<std::optional<double>> figures = row.figures;
+  figures.insert(figures.end(), row.further.begin(), row.further.end());
   std::string json =
       fmt::format(R"({{"number":{},"state":"{}","values":{},"figures":{})", row.number, state_text(row.state),
-                  json_list(row.values, [](auto v) { return std::to_string(v); }), json_list(row.figures, figure_json));
+                  json_list(row.values, [](auto v) { return std::to_string(v); }), json_list(figures, figure_json));
   if (!row.config_digest.empty()) json += R"(,"digest":)" + json_string(row.config_digest.substr(0, kDigestDigits));
   if (!row.scene_digest.empty()) json += R"(,"scene":)" + json_string(row.scene_digest.substr(0, kDigestDigits));
   if (!row.allowed) json += R"(,"allowed":false)";
@@ -111,10 +120,12 @@ std::string data_json(const SweepTable& table, const Front& front, const std::ve
   const Names names(table);
   const Thumbnails thumbnails(table, rows_with_thumbnail(table, front));
   return fmt::format(
-      R"({{"axes":{},"objectives":{},"constraints":{},"rows":{},"baseline":{},"pictures":{},"thumbnails":{},"notes":{},"sensitivity":{}}})",
+      R"({{"axes":{},"objectives":{},"further":{},"constraints":{},"rows":{},"baseline":{},"pictures":{},"thumbnails":{},"notes":{},"sensitivity":{}}})",
       json_list(numbers_below(table.axes.size()), [&](auto a) { return axis_json(table.axes[a], names.axes[a]); }),
       json_list(numbers_below(table.objectives.size()),
                 [&](auto o) { return objective_json(table.objectives[o], names.objectives[o]); }),
+      json_list(numbers_below(table.further.size()),
+                [&](auto k) { return further_json(table.further[k], names.further[k]); }),
       json_texts(table.constraints),
       json_list(numbers_below(table.rows.size()), [&](auto r) { return row_json(table, front, r); }),
       table.baseline ? std::to_string(*table.baseline) : "null", json_texts(thumbnails.pictures),
@@ -126,12 +137,12 @@ std::string data_json(const SweepTable& table, const Front& front, const std::ve
 
 // The lines of answer_section without the question, which is a heading here: the answer, and what belongs to it.
 std::vector<std::string> answer_lines(const SweepTable& table, const Front& front) {
-  const std::string label = "Answer: ";
+  const std::string label = "Answer";  // ": ..." or ", given ..."
   std::istringstream text(answer_section(table, front));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) {
     if (line.empty() || line.starts_with("Question: ")) continue;
-    lines.push_back(line.starts_with(label) ? line.substr(label.size()) : line);
+    lines.push_back(line.starts_with(label) ? line.substr(label.size() + 2) : line);
   }
   if (lines.empty()) lines.emplace_back();
   return lines;

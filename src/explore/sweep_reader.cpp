@@ -11,12 +11,10 @@
 #include "src/config/document.h"
 #include "src/config/overrides.h"
 #include "src/config/value_text.h"
-#include "src/explore/constraint.h"
-#include "src/explore/figures.h"
 #include "src/explore/ranges.h"
 #include "src/explore/sweep.h"
+#include "src/explore/sweep_figures.h"
 #include "src/explore/sweep_file.h"
-#include "src/report/figure_path.h"
 #include "src/run/input_files.h"
 
 namespace rastertlm::explore {
@@ -47,6 +45,7 @@ class Checking {
       no_key_twice();
     }
     figures();
+    if (diagnostics_.empty()) given();
     if (diagnostics_.empty()) baseline();
     if (diagnostics_.empty() && sweep_.axes.empty())
       add(0, "vary", "nothing varies: give a [[vary]], or several machines or scenes");
@@ -151,12 +150,14 @@ class Checking {
 
   void group(const VaryFile& vary, const std::string& key) {
     Vary axis{Vary::What::parameter, vary.name, "", {}, std::nullopt, std::nullopt, vary.line};
+    const bool curved = std::any_of(vary.variants.begin(), vary.variants.end(),
+                                    [](const Variant& variant) { return !variant.curve.empty(); });
     for (std::size_t i = 0; i < vary.variants.size(); ++i) {
       const Variant& variant = vary.variants[i];
       const std::string place = fmt::format("{}.variant[{}]", key, i);
       if (variant.name.empty()) add(variant.line, place + ".name", "required key is missing: the variant's name");
       if (has(axis, variant.name)) add(variant.line, place + ".name", "another variant has the same name");
-      Choice choice{variant.name, {}, ""};
+      Choice choice{variant.name, {}, "", curved ? curve_of(variant) : ""};
       bool standing = true;
       for (const Setting& setting : variant.sets) {
         const Settable::Checked result = checked(bases_, setting.path, &setting.value);
@@ -169,6 +170,9 @@ class Checking {
     }
     sweep_.axes.push_back(std::move(axis));
   }
+
+  // Where some are points of a curve, every other is one by itself.
+  static std::string curve_of(const Variant& variant) { return variant.curve.empty() ? variant.name : variant.curve; }
 
   void parameter(const VaryFile& vary, const std::string& key) {
     const Settable::Checked known = checked(bases_, vary.path, nullptr);
@@ -240,57 +244,31 @@ class Checking {
   }
 
   void figures() {
-    std::set<std::string> paths;
-    for (std::size_t i = 0; i < file_.objectives.size(); ++i) {
-      const ObjectiveFile& objective = file_.objectives[i];
-      const std::string key = fmt::format("objective[{}].path", i);
-      std::string mistake = objective.path.empty() ? "" : figure_mistake(objective.path);
-      if (mistake.empty() && !paths.insert(objective.path).second) mistake = "stands there twice";
-      if (!mistake.empty()) add(file_.line_of(key), key, mistake);
-      sweep_.objectives.push_back({objective.path, figure_unit(objective.path), objective.sense});
-      sweep_.optional.push_back(objective.optional);
-      sweep_.lines.push_back(file_.line_of(key));
-    }
-    if (file_.objectives.empty()) add(0, "objective", "nothing counts: give an [[objective]]");
-    for (const Word& word : file_.constraints) {
-      auto parsed = parse_constraint(word.text);
-      if (const auto* mistake = std::get_if<std::string>(&parsed)) add(word.line, "constraints", *mistake);
-      if (auto* constraint = std::get_if<Constraint>(&parsed)) {
-        std::string wrong = figure_mistake(constraint->path);
-        if (wrong.empty() && constraint->alone && !is_truth(constraint->path))
-          wrong = fmt::format("'{}' is no truth that could stand alone: compare it, as in '{} >= 1'", constraint->path,
-                              constraint->path);
-        if (!wrong.empty()) add(word.line, "constraints", wrong);
-        constraint->line = word.line;
-        sweep_.constraints.push_back(std::move(*constraint));
-      }
-    }
+    const auto standing = [this](const std::string& parameter) { return checked(plain_, parameter, nullptr); };
+    read_figures(file_, standing, sweep_, diagnostics_);
   }
 
-  std::string figure_mistake(const std::string& path) {
-    const std::string parameter = parameter_of(path);
-    if (!parameter.empty()) return number_mistake(path, checked(plain_, parameter, nullptr));
-    std::string mistake = report::figure_mistake(path);
-    if (mistake.empty() && !sweep_.reference && report::is_error_figure(path))
-      return fmt::format("'{}' cannot be had: with reference = false no error is measured", path);
-    return mistake;
+  // Axes that are not ours to choose.
+  void given() {
+    for (const Word& word : file_.given) {
+      Vary* axis = axis_named(word.text);
+      if (axis == nullptr)
+        add(word.line, "given", fmt::format("'{}' does not vary{}", word.text, nearest_axis(word.text)));
+      else if (axis->given)
+        add(word.line, "given", fmt::format("'{}' stands there twice", word.text));
+      else
+        axis->given = true;
+    }
+    const auto chosen = [](const Vary& axis) { return !axis.given; };
+    if (!file_.given.empty() && diagnostics_.empty() && std::none_of(sweep_.axes.begin(), sweep_.axes.end(), chosen))
+      add(file_.given.front().line, "given", "everything that varies is given: nothing is left to compare");
   }
-  static std::string number_mistake(const std::string& path, const Settable::Checked& known) {
-    if (!known.mistake.empty() || known.integer) return known.mistake;
-    const std::optional<config::Raw> raw = config::parse_value(known.standing);
-    const bool number = raw && (std::holds_alternative<std::int64_t>(raw->value) ||
-                                std::holds_alternative<double>(raw->value) || std::holds_alternative<bool>(raw->value));
-    return number ? "" : fmt::format("'{}' is no number and no truth: it cannot be compared", path);
-  }
-  bool is_truth(const std::string& path) {
-    const std::string parameter = parameter_of(path);
-    if (parameter.empty()) return report::is_truth_figure(path);
-    const std::string standing = checked(plain_, parameter, nullptr).standing;
-    return standing == "true" || standing == "false";
-  }
-  std::string figure_unit(const std::string& path) {
-    const std::string parameter = parameter_of(path);
-    return parameter.empty() ? report::figure_unit(path) : checked(plain_, parameter, nullptr).unit;
+
+  std::string nearest_axis(const std::string& path) const {
+    std::vector<std::string> known;
+    for (const Vary& one : sweep_.axes) known.push_back(one.path);
+    const std::string near = nearest_word(path, known);
+    return near.empty() ? std::string() : fmt::format("; nearest: '{}'", near);
   }
 
   Vary* axis_named(const std::string& path) {
@@ -335,11 +313,7 @@ class Checking {
         start_at(*axis, setting);
         continue;
       }
-      std::vector<std::string> known;
-      for (const Vary& one : sweep_.axes) known.push_back(one.path);
-      const std::string near = nearest_word(setting.path, known);
-      add(setting.line, "baseline." + setting.path,
-          "does not vary" + (near.empty() ? std::string() : fmt::format("; nearest: '{}'", near)));
+      add(setting.line, "baseline." + setting.path, "does not vary" + nearest_axis(setting.path));
     }
     const bool wanted = sweep_.mode == Mode::one_at_a_time || file_.has_baseline;
     bool whole = true;

@@ -14,6 +14,8 @@ struct Axis {
   std::string path;
   std::string unit;                 // empty: none
   std::vector<std::string> values;  // that points have, as in a machine file; in the sweep's order
+  std::vector<std::string> curves{};  // a value each: of which curve it is a point; empty: the axis has none
+  bool given = false;               // not ours to choose: points are compared only where it is the same
 };
 
 enum class Sense { minimise, maximise };
@@ -24,6 +26,15 @@ struct Objective {
   std::string path;
   std::string unit;
   Sense sense = Sense::minimise;
+  std::string name{};        // that a reader knows it by; empty: made from the path
+  bool logarithmic = false;  // how it is drawn
+};
+
+// A figure that is shown beside the objectives and counts for nothing.
+struct FurtherFigure {
+  std::string path;
+  std::string unit;
+  std::string name{};  // as an objective's
 };
 
 enum class State { waiting, done, failed };
@@ -32,6 +43,7 @@ struct Row {
   std::uint64_t number = 0;                    // of the point, from 0, in the sweep's order
   std::vector<std::size_t> values;             // an axis each: which of its values
   std::vector<std::optional<double>> figures;  // an objective each; none where the report has none, or null
+  std::vector<std::optional<double>> further{};  // one each of the table's further figures
   State state = State::waiting;
   bool allowed = true;                  // every constraint is met; only such points are on the front
   std::string error;                    // failed: why
@@ -45,6 +57,7 @@ struct SweepTable {
   std::string question;  // that the sweep answers
   std::vector<Axis> axes;
   std::vector<Objective> objectives;
+  std::vector<FurtherFigure> further;
   std::vector<std::string> constraints;  // as they were written
   std::vector<Row> rows;
   std::optional<std::size_t> baseline;  // row

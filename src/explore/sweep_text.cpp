@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "src/explore/sweep_words.h"
@@ -34,10 +36,24 @@ int order_of(const SweepTable& table, const Row& a, const Row& b) {
   return 0;
 }
 
-std::vector<Column> point_columns(const Names& names) {
+bool is_equal(const SweepTable& table, const Row& a, const Row& b) {
+  return order_of(table, a, b) == 0 && case_of(table, a) == case_of(table, b);
+}
+
+// A name that the sweep gives may not say the unit.
+template <typename Figure>
+Column figure_column(const Figure& figure, const std::string& name) {
+  const bool says = figure.name.empty() || figure.unit.empty() || name.find(figure.unit) != std::string::npos;
+  return {says ? name : fmt::format("{}, {}", name, in_one_line(figure.unit)), Align::right};
+}
+
+std::vector<Column> point_columns(const SweepTable& table, const Names& names) {
   std::vector<Column> columns{{"point", Align::right}};
   for (const std::string& name : names.axes) columns.push_back({name, Align::right});
-  for (const std::string& name : names.objectives) columns.push_back({name, Align::right});
+  for (std::size_t o = 0; o < table.objectives.size(); ++o)
+    columns.push_back(figure_column(table.objectives[o], names.objectives[o]));
+  for (std::size_t k = 0; k < table.further.size(); ++k)
+    columns.push_back(figure_column(table.further[k], names.further[k]));
   return columns;
 }
 
@@ -46,7 +62,44 @@ std::vector<std::string> point_cells(const SweepTable& table, const Row& row) {
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     cells.push_back(in_one_line(table.axes[a].values.at(row.values[a])));
   for (const auto& figure : row.figures) cells.push_back(shown_figure(figure));
+  for (const auto& figure : row.further) cells.push_back(shown_figure(figure));
   return cells;
+}
+
+// The case that is asked for: the baseline's, else that of the front's first point. There is one where a front is.
+std::vector<std::size_t> asked_case(const SweepTable& table, const Front& front) {
+  if (table.baseline) {
+    std::vector<std::size_t> own = case_of(table, table.rows.at(*table.baseline));
+    if (std::ranges::any_of(front.rows, [&](std::size_t r) { return case_of(table, table.rows[r]) == own; }))
+      return own;
+  }
+  return front.rows.empty() ? std::vector<std::size_t>{} : case_of(table, table.rows[front.rows.front()]);
+}
+
+bool has_cases(const SweepTable& table) {
+  return std::ranges::any_of(table.axes, [](const Axis& axis) { return axis.given; });
+}
+
+// Rows of the asked case first, then case by case.
+void sort_by_case(const SweepTable& table, const Front& front, std::vector<std::size_t>& rows) {
+  if (!has_cases(table)) return;
+  const std::vector<std::size_t> asked = asked_case(table, front);
+  const auto key = [&](std::size_t r) {
+    const std::vector<std::size_t> own = case_of(table, table.rows[r]);
+    return std::pair(own != asked, own);
+  };
+  std::ranges::stable_sort(rows, [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+}
+
+std::string cases_line(const SweepTable& table, const Names& names) {
+  std::string given;
+  for (std::size_t a = 0; a < table.axes.size(); ++a)
+    if (table.axes[a].given) given += (given.empty() ? "" : ", ") + names.axes[a];
+  return given.empty() ? ""
+                       : fmt::format(
+                             "{}Given are {}: points are compared where these are the same. The case of the "
+                             "answer comes first.\n",
+                             kIndent, given);
 }
 
 std::string rest_line(std::size_t shown, std::size_t all) {
@@ -77,9 +130,13 @@ std::string counts_sentence(const SweepTable& table, const Front& front) {
     waiting += row.state == State::waiting ? 1 : 0;
     breaking += row.state == State::done && !row.allowed ? 1 : 0;
   }
-  std::string text = fmt::format("{}: {} on the front, {} beaten by it", counted(table.rows.size(), "point", "points"),
-                                 grouped(front.rows.size()),
-                                 grouped(table.rows.size() - failed - waiting - breaking - front.rows.size()));
+  std::set<std::vector<std::size_t>> cases;
+  for (const Row& row : table.rows) cases.insert(case_of(table, row));
+  std::string text =
+      fmt::format("{}{}: {} on the front{}, {} beaten by it", counted(table.rows.size(), "point", "points"),
+                  cases.size() > 1 ? fmt::format(" of {} cases", grouped(cases.size())) : "",
+                  grouped(front.rows.size()), cases.size() > 1 ? " of its case" : "",
+                  grouped(table.rows.size() - failed - waiting - breaking - front.rows.size()));
   if (breaking > 0) text += fmt::format(", {} against the constraints", grouped(breaking));
   if (failed > 0) text += fmt::format(", {} failed", grouped(failed));
   if (waiting > 0) text += fmt::format(", {} not run yet", grouped(waiting));
@@ -108,8 +165,13 @@ std::string difference_text(const SweepTable& table, const Names& names, const R
 
 std::optional<std::size_t> answer_row(const SweepTable& table, const Front& front) {
   if (front.rows.empty()) return {};
-  return *std::ranges::min_element(
-      front.rows, [&](std::size_t a, std::size_t b) { return order_of(table, table.rows[a], table.rows[b]) < 0; });
+  const std::vector<std::size_t> asked = asked_case(table, front);
+  std::optional<std::size_t> answer;
+  for (const std::size_t r : front.rows) {
+    if (case_of(table, table.rows[r]) != asked) continue;
+    if (!answer || order_of(table, table.rows[r], table.rows[*answer]) < 0) answer = r;
+  }
+  return answer;
 }
 
 std::string answer_section(const SweepTable& table, const Front& front) {
@@ -123,10 +185,14 @@ std::string answer_section(const SweepTable& table, const Front& front) {
     return question + "Answer: none yet: " + none + ".\n" + counts_sentence(table, front);
   }
   const Row& row = table.rows[*answer];
-  std::string text = question + "Answer: " + point_text(table, names, row) + fmt::format(" (point {})", row.number);
+  std::string text = question + "Answer";
+  if (has_cases(table)) text += ", given " + case_text(table, names, row);
+  text += fmt::format(": {} (point {})", choice_text(table, names, row), row.number);
   if (!table.objectives.empty()) {
     const Objective& first = table.objectives.front();
-    const auto compared = static_cast<std::size_t>(std::ranges::count(front.compared, true));
+    std::size_t compared = 0;
+    for (std::size_t r = 0; r < table.rows.size(); ++r)
+      compared += front.compared[r] && case_of(table, table.rows[r]) == case_of(table, row) ? 1 : 0;
     text += fmt::format(": {}, the {} of {}{}", named_figure(table, names, row, 0), wanted_text(first.sense),
                         counted(compared, "point", "points"), met);
     for (std::size_t o = 1; o < table.objectives.size(); ++o)
@@ -178,14 +244,16 @@ std::string front_section(const SweepTable& table, const Front& front, std::size
   std::vector<std::size_t> order = front.rows;
   std::ranges::stable_sort(
       order, [&](std::size_t a, std::size_t b) { return order_of(table, table.rows[a], table.rows[b]) < 0; });
-  std::vector<Column> columns = point_columns(names);
+  sort_by_case(table, front, order);
+  text += cases_line(table, names);
+  std::vector<Column> columns = point_columns(table, names);
   columns.push_back({"equal to it", Align::right});
   TextTable rows(std::move(columns), kIndent);
   std::size_t shown = 0;
   std::size_t covered = 0;
   for (std::size_t i = 0; i < order.size() && shown < most_rows; ++shown) {
     std::size_t end = i + 1;
-    while (end < order.size() && order_of(table, table.rows[order[i]], table.rows[order[end]]) == 0) ++end;
+    while (end < order.size() && is_equal(table, table.rows[order[i]], table.rows[order[end]])) ++end;
     std::vector<std::string> cells = point_cells(table, table.rows[order[i]]);
     cells.push_back(end - i > 1 ? counted(end - i - 1, "point", "points") : "");
     rows.row(std::move(cells));
@@ -197,18 +265,20 @@ std::string front_section(const SweepTable& table, const Front& front, std::size
 
 std::string beaten_section(const SweepTable& table, const Front& front, std::size_t most_rows) {
   const Names names(table);
-  std::vector<Column> columns = point_columns(names);
+  std::vector<Column> columns = point_columns(table, names);
   columns.push_back({"beaten by", Align::right});
   TextTable rows(std::move(columns), kIndent);
-  std::size_t shown = 0;
-  std::size_t all = 0;
-  for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    if (!front.beaten_by[r]) continue;
-    if (++all > most_rows) continue;
+  std::vector<std::size_t> beaten;
+  for (std::size_t r = 0; r < table.rows.size(); ++r)
+    if (front.beaten_by[r]) beaten.push_back(r);
+  sort_by_case(table, front, beaten);
+  const std::size_t all = beaten.size();
+  const std::size_t shown = std::min(all, most_rows);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::size_t r = beaten[i];
     std::vector<std::string> cells = point_cells(table, table.rows[r]);
     cells.push_back(std::to_string(table.rows[*front.beaten_by[r]].number));
     rows.row(std::move(cells));
-    shown = all;
   }
   std::string text;
   if (table.baseline && front.compared[*table.baseline]) {

@@ -19,8 +19,9 @@ struct TextOptions {
   std::size_t most_rows = 40;       // of a table; the rest is counted
 };
 
-// The point that answers the sweep's question: the best in the first objective of those that were compared, of equal
-// ones the best in the second, and so on, then the first. It is on the front. None where no point was compared.
+// The point that answers the sweep's question, in the baseline's case where axes are given: the best in the first
+// objective of those that were compared, of equal ones the best in the second, and so on, then the first. It is on the
+// front. None where no point was compared.
 std::optional<std::size_t> answer_row(const SweepTable& table, const Front& front);
 
 // The row from which a step is taken: `chosen`, else the baseline if it is done, else the answer, where there is one.

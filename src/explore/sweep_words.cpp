@@ -37,6 +37,18 @@ std::vector<std::string> candidates(const std::string& path) {
   return names;
 }
 
+template <typename Wanted>
+std::string values_text(const SweepTable& table, const Names& names, const Row& row, const Wanted& wanted) {
+  std::string text;
+  for (std::size_t a = 0; a < table.axes.size(); ++a) {
+    if (!wanted(table.axes[a])) continue;
+    if (!text.empty()) text += ", ";
+    text += names.axes[a] + " = " + in_one_line(table.axes[a].values.at(row.values[a]));
+    text += unit_text(table.axes[a].unit, names.axes[a]);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> short_names(const std::vector<std::string>& paths) {
@@ -59,10 +71,16 @@ Names::Names(const SweepTable& table) {
   std::vector<std::string> paths;
   for (const Axis& axis : table.axes) paths.push_back(axis.path);
   for (const Objective& objective : table.objectives) paths.push_back(objective.path);
+  for (const FurtherFigure& one : table.further) paths.push_back(one.path);
   const std::vector<std::string> names = short_names(paths);
-  const auto middle = names.begin() + static_cast<std::ptrdiff_t>(table.axes.size());
-  axes.assign(names.begin(), middle);
-  objectives.assign(middle, names.end());
+  auto next = names.begin();
+  for (std::size_t a = 0; a < table.axes.size(); ++a) axes.push_back(*next++);
+  const auto name = [&](const std::string& given) {
+    const std::string& made = *next++;
+    return in_one_line(given.empty() ? made : given);
+  };
+  for (const Objective& one : table.objectives) objectives.push_back(name(one.name));
+  for (const FurtherFigure& one : table.further) further.push_back(name(one.name));
 }
 
 std::string heading(const std::string& title) {
@@ -96,13 +114,13 @@ std::string change_text(double change, const std::optional<double>& before, cons
 }
 
 std::string point_text(const SweepTable& table, const Names& names, const Row& row) {
-  std::string text;
-  for (std::size_t a = 0; a < table.axes.size(); ++a) {
-    if (a > 0) text += ", ";
-    text += names.axes[a] + " = " + in_one_line(table.axes[a].values.at(row.values[a]));
-    text += unit_text(table.axes[a].unit, names.axes[a]);
-  }
-  return text;
+  return values_text(table, names, row, [](const Axis&) { return true; });
+}
+std::string case_text(const SweepTable& table, const Names& names, const Row& row) {
+  return values_text(table, names, row, [](const Axis& axis) { return axis.given; });
+}
+std::string choice_text(const SweepTable& table, const Names& names, const Row& row) {
+  return values_text(table, names, row, [](const Axis& axis) { return !axis.given; });
 }
 
 const char* wanted_text(Sense sense) { return sense == Sense::minimise ? "least" : "most"; }

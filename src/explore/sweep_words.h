@@ -15,11 +15,13 @@ namespace rastertlm::explore {
 //   max(images[].error.rmse_level)    max rmse_level
 std::vector<std::string> short_names(const std::vector<std::string>& paths);
 
-// The short names of a table's axes and objectives, found together.
+// The short names of a table's axes, objectives and further figures, found together; or those that the sweep gives
+// them.
 struct Names {
   explicit Names(const SweepTable& table);
   std::vector<std::string> axes;
   std::vector<std::string> objectives;
+  std::vector<std::string> further;
 };
 
 inline constexpr const char* kIndent = "  ";  // of what stands under a heading
@@ -40,6 +42,9 @@ std::string change_text(double change);
 std::string change_text(double change, const std::optional<double>& before, const std::string& unit = "");
 // "computation_units = 8, topology = "tree"".
 std::string point_text(const SweepTable& table, const Names& names, const Row& row);
+// The same of the axes that are given, and of those that are not.
+std::string case_text(const SweepTable& table, const Names& names, const Row& row);
+std::string choice_text(const SweepTable& table, const Names& names, const Row& row);
 // "least" or "most".
 const char* wanted_text(Sense sense);
 

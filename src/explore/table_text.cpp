@@ -84,6 +84,7 @@ std::string table_text(const SweepTable& table, std::size_t most_rows) {
   for (const Axis& axis : table.axes) columns.push_back({with_unit(axis.path, axis.unit), Align::left});
   for (const Objective& objective : table.objectives)
     columns.push_back({with_unit(objective.path, objective.unit), Align::right});
+  for (const FurtherFigure& one : table.further) columns.push_back({with_unit(one.path, one.unit), Align::right});
   columns.push_back({"state", Align::left});
   TextTable rows(columns);
   for (std::size_t i = 0; i < std::min(most_rows, table.rows.size()); ++i) {
@@ -93,6 +94,7 @@ std::string table_text(const SweepTable& table, std::size_t most_rows) {
     for (std::size_t axis = 0; axis < table.axes.size(); ++axis)
       cells.push_back(table.axes[axis].values.at(row.values.at(axis)));
     for (const std::optional<double>& figure : row.figures) cells.push_back(figure_text(figure));
+    for (const std::optional<double>& figure : row.further) cells.push_back(figure_text(figure));
     cells.emplace_back(state_text(row));
     rows.row(std::move(cells));
   }
@@ -108,6 +110,7 @@ std::string table_csv(const SweepTable& table, const Front& front) {
   std::string text = "point,state,allowed,baseline,front,beaten_by";
   for (const Axis& axis : table.axes) text += ',' + csv_cell(with_unit(axis.path, axis.unit));
   for (const Objective& objective : table.objectives) text += ',' + csv_cell(with_unit(objective.path, objective.unit));
+  for (const FurtherFigure& one : table.further) text += ',' + csv_cell(with_unit(one.path, one.unit));
   text += ",config_digest,scene_digest,error\n";
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const Row& row = table.rows[i];
@@ -118,8 +121,9 @@ std::string table_csv(const SweepTable& table, const Front& front) {
     text += front.beaten_by[i] ? fmt::format(",{}", table.rows[*front.beaten_by[i]].number) : std::string(",");
     for (std::size_t axis = 0; axis < table.axes.size(); ++axis)
       text += ',' + csv_cell(table.axes[axis].values.at(row.values.at(axis)));
-    for (const std::optional<double>& figure : row.figures)
-      text += figure ? fmt::format(",{:.9g}", *figure) : std::string(",");
+    for (const auto* figures : {&row.figures, &row.further})
+      for (const std::optional<double>& figure : *figures)
+        text += figure ? fmt::format(",{:.9g}", *figure) : std::string(",");
     text += fmt::format(",{},{},{}\n", row.config_digest, row.scene_digest, csv_cell(without_breaks(row.error)));
   }
   return text;

@@ -13,8 +13,8 @@ namespace rastertlm::explore {
 std::string table_text(const SweepTable& table, std::size_t most_rows);
 
 // A line a point, after a line of names: number, state, allowed, baseline, front (1 or 0), beaten_by (a point of the
-// front), the axes, the objectives, the digest of the resolved machine, the error. What is missing is empty, as front
-// is of points that were not compared. RFC 4180, with line feeds alone.
+// front), the axes, the objectives, the further figures, the digest of the resolved machine, the error. What is missing
+// is empty, as front is of points that were not compared. RFC 4180, with line feeds alone.
 std::string table_csv(const SweepTable& table, const Front& front);
 
 // A figure with six significant digits; "-" where there is none.

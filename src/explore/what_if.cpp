@@ -40,9 +40,11 @@ std::optional<std::size_t> only_difference(const std::vector<std::size_t>& a, co
 
 std::vector<Move> find_moves(const SweepTable& table, const Row& start) {
   std::vector<Move> moves;
-  for (std::size_t a = 0; a < table.axes.size(); ++a)
+  for (std::size_t a = 0; a < table.axes.size(); ++a) {
+    if (table.axes[a].given) continue;
     for (const std::size_t value : one_step_from(table.axes[a], start.values[a]))
       moves.push_back({a, value, MoveState::not_there, {}, std::vector<Figure>(table.objectives.size())});
+  }
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const Row& row = table.rows[r];
     const auto axis = only_difference(start.values, row.values);

@@ -4,22 +4,29 @@
 const mostTableRows = 2000;
 const mostBoxes = 12;  // values of a parameter that get a box each; of more a range is chosen
 
-const figureOf = (row, objective) => {
-  const figure = row.figures[objective];
+// Of a row's figures the first are the objectives', the further ones count for nothing.
+const shownFigures = [...page.objectives, ...page.further];
+const figureOf = (row, place) => {
+  const figure = row.figures[place];
   return figure === 'inf' ? Infinity : figure === '-inf' ? -Infinity : figure;
 };
 const figureText = (figure) => figure === null ? '-' : Number.isFinite(figure) ? quantity(figure) : 'infinite';
 const withUnit = (text, unit) => unit === '' ? text : `${text} ${unit}`;
-const axisTitle = (objective) => withUnit(objective.path, objective.unit === '' ? '' : `(${objective.unit})`) + (objective.most ? ', most is wanted' : ', least is wanted');
+const named = (text, figure) => withUnit(text, figure.unit === '' ? '' : `(${figure.unit})`);
+const axisTitle = (figure) => named(figure.name, figure) + (figure.most === undefined ? '' : figure.most ? ', most is wanted' : ', least is wanted');
+// Of what is given one value is shown at first: the baseline's, else that of the front's first point.
+const asked = page.baseline !== null ? page.rows[page.baseline] : page.rows.find((row) => row.front);
+const shownAtFirst = (axis, k, v) => !axis.given || asked === undefined || asked.values[k] === v;
 
 const view = {
   x: 0,
   y: Math.min(1, page.objectives.length - 1),
-  logarithmic: {x: false, y: false},
-  allowed: page.axes.map((axis) => axis.values.map(() => true)),  // by the filter, a value each
+  logarithmic: {},
+  allowed: page.axes.map((axis, k) => axis.values.map((_, v) => shownAtFirst(axis, k, v))),  // by the filter, a value each
   sort: {key: 'number', descending: false},
   chosen: page.baseline,
 };
+for (const axis of ['x', 'y']) view.logarithmic[axis] = shownFigures[view[axis]]?.logarithmic === true;
 const rows = page.rows.map((row, index) => ({...row, index, met: row.allowed !== false}));
 const thumbnails = new Map(page.thumbnails.map(({row, picture}) => [row, 'data:image/png;base64,' + page.pictures[picture]]));
 const passes = (row) => row.values.every((value, axis) => view.allowed[axis][value]);
@@ -29,13 +36,33 @@ function pointLines(row) {
   return [
     `point ${row.number}${isBaseline(row) ? ', the baseline' : ''}${row.front ? ', on the front' : ''}`,
     ...page.axes.map((axis, k) => `${axis.path} = ${withUnit(axis.values[row.values[k]], axis.unit)}`),
-    ...page.objectives.map((objective, k) => `${objective.name}: ${withUnit(figureText(figureOf(row, k)), objective.unit)}`),
+    ...shownFigures.map((figure, k) => `${figure.name}: ${withUnit(figureText(figureOf(row, k)), figure.unit)}`),
     ...(row.met ? [] : ['breaks a constraint']),
     ...(row.beaten_by === undefined ? [] : [`beaten by point ${row.beaten_by}`]),
   ];
 }
 
-// Of the points that are shown and compared, those that no other beats in the two chosen objectives, as a stair.
+// What is given is the same for all points of a case.
+const caseOf = (row) => row.values.filter((_, axis) => page.axes[axis].given).join(' ');
+
+// Elements under what `key` gives for them, in the order of its first values.
+function grouping(elements, key) {
+  const found = new Map();
+  for (const one of elements) {
+    const own = key(one);
+    if (!found.has(own)) found.set(own, []);
+    found.get(own).push(one);
+  }
+  return found;
+}
+
+// A stair for each case, with gaps between them; none where a figure counts for nothing.
+function stairs(shown) {
+  if (Math.max(view.x, view.y) >= page.objectives.length) return [];
+  return [...grouping(shown, caseOf).values()].map(stair).reduce((all, one) => all.length === 0 ? one : [...all, {x: NaN, y: NaN}, ...one], []);
+}
+
+// Of the points of a case that are shown and compared, those that no other beats in the two chosen objectives.
 function stair(shown) {
   const [a, b] = [page.objectives[view.x], page.objectives[view.y]];
   const better = (objective) => objective.most ? -1 : 1;
@@ -49,12 +76,37 @@ function stair(shown) {
   return kept;
 }
 
+const hasCurves = page.axes.some((axis) => axis.curves.length > 0);
+const ring = (colour, width) => ({fill: 'transparent', colour, width});
+// Where points are drawn by curve, these only mark them.
 const groups = [
-  {label: 'beaten', colour: '#8fa3b8', radius: 3, order: 4, has: (row) => !row.front && row.met && !isBaseline(row)},
+  {label: 'beaten', ...(hasCurves ? ring('transparent', 0) : {colour: '#8fa3b8'}), radius: 3, order: 4, has: (row) => !row.front && row.met && !isBaseline(row)},
   {label: 'breaks a constraint', colour: '#d9a19b', radius: 3, order: 3, style: 'crossRot', has: (row) => !row.met && !isBaseline(row)},
-  {label: 'on the front of all objectives', colour: colours.accent, radius: 5, order: 2, has: (row) => row.front && !isBaseline(row)},
-  {label: 'baseline', colour: colours.baseline, radius: 8, order: 1, style: 'triangle', has: isBaseline},
+  {label: 'on the front of all objectives', ...(hasCurves ? ring(colours.ink, 1.5) : {colour: colours.accent}), radius: hasCurves ? 8 : 5, order: 2, has: (row) => row.front && !isBaseline(row)},
+  {label: 'baseline', ...(hasCurves ? ring(colours.baseline, 2) : {colour: colours.baseline}), radius: hasCurves ? 10 : 8, order: 1, style: 'triangle', has: isBaseline},
 ];
+
+const curveColours = ['#6b7280', '#8b5fbf', '#8fbde8', '#2563a8', '#12365f', '#d97706', '#2f855a', '#c2410c', '#a08a00', '#d64b8a', '#b91c1c', '#0f8b8d'];
+const curveStyles = ['circle', 'rect', 'triangle', 'rectRot', 'star', 'crossRot'];
+
+// Which curve a point is of: by its curve where the axis has any, else by its value, which is told where several are shown.
+function curveName(row) {
+  return page.axes.map((axis, k) => axis.curves.length > 0 ? axis.curves[row.values[k]] :
+      view.allowed[k].filter(Boolean).length > 1 ? withUnit(axis.values[row.values[k]], axis.unit) : '').filter((part) => part !== '').join(', ');
+}
+const allCurves = hasCurves ? [...new Set(page.axes.flatMap((axis) => axis.curves))] : [];
+
+function curveSets(drawable, place) {
+  if (!hasCurves) return [];
+  return [...grouping(drawable, curveName)].map(([label, own]) => {
+    const number = Math.max(0, allCurves.findIndex((curve) => own[0].values.some((v, k) => page.axes[k].curves[v] === curve)));
+    const colour = curveColours[number % curveColours.length];
+    return {
+      label, type: 'line', data: own.map((row) => ({x: place(row).x, y: place(row).y})), borderColor: colour, backgroundColor: colour, borderWidth: 1.5, fill: false,
+      pointRadius: 4, pointHitRadius: 0, pointStyle: curveStyles[Math.floor(number / curveColours.length + number) % curveStyles.length], order: 6,
+    };
+  });
+}
 
 let scatter;
 
@@ -67,28 +119,49 @@ function scatterData() {
   const place = (row) => ({x: figureOf(row, view.x), y: figureOf(row, view.y), row: row.index});
   return [
     ...groups.map((group) => ({
-      label: group.label, data: drawable.filter(group.has).map(place), backgroundColor: group.colour, borderColor: group.colour,
+      label: group.label, data: drawable.filter(group.has).map(place), backgroundColor: group.fill || group.colour, borderColor: group.colour, borderWidth: group.width ?? 1,
       pointRadius: group.radius, pointHoverRadius: group.radius + 3, pointStyle: group.style || 'circle', order: group.order,
     })),
-    {label: 'front of these two', type: 'line', data: stair(shown), borderColor: colours.ink, borderWidth: 1, pointRadius: 0, pointHitRadius: 0, pointStyle: 'line',
-      stepped: page.objectives[view.x].most === page.objectives[view.y].most ? 'before' : 'after', fill: false, order: 5},
-    {label: 'chosen', data: drawable.filter((row) => row.index === view.chosen).map(place), pointRadius: 11, pointStyle: 'circle', borderWidth: 2,
+    {label: 'front of these two', type: 'line', data: stairs(shown), borderColor: colours.ink, borderWidth: 1, pointRadius: 0, pointHitRadius: 0, pointStyle: 'line',
+      stepped: page.objectives[view.x]?.most === page.objectives[view.y]?.most ? 'before' : 'after', fill: false, order: 5},
+    {label: 'chosen', data: drawable.filter((row) => row.index === view.chosen).map(place), pointRadius: hasCurves ? 13 : 11, pointStyle: 'circle', borderWidth: 2,
       backgroundColor: 'transparent', borderColor: colours.ink, order: 0},
+    ...curveSets(drawable, place),
   ];
+}
+
+// Where curves are drawn, the legend has what is there.
+function inLegend(item, data) {
+  if (item.text === 'chosen') return false;
+  return !hasCurves || (item.text !== 'beaten' && data.datasets[item.datasetIndex].data.length > 0);
 }
 
 // Some room about the points, but none below zero where no figure is.
 function widened(scale) {
-  if (scale.type !== 'linear') return;
+  if (scale.type === 'logarithmic') {
+    const room = Math.max(1.05, (scale.max / scale.min) ** 0.04);
+    scale.min /= room;
+    scale.max *= room;
+    return;
+  }
   const room = 0.04 * (scale.max - scale.min);
   scale.min = scale.min >= 0 ? Math.max(0, scale.min - room) : scale.min - room;
   scale.max += room;
 }
 
 const scaleOf = (axis, objective) => ({
-  type: view.logarithmic[axis] ? 'logarithmic' : 'linear', title: {display: true, text: axisTitle(page.objectives[objective])},
-  afterDataLimits: widened,
+  type: view.logarithmic[axis] ? 'logarithmic' : 'linear', title: {display: true, text: axisTitle(shownFigures[objective])},
+  bounds: 'data', afterDataLimits: widened, ticks: {maxRotation: 0},
+  afterBuildTicks: (scale) => { scale.ticks = scale.ticks.filter((tick) => tick.value >= scale.min && tick.value <= scale.max); },
 });
+
+// The case that is shown, where it is one.
+function titleOf() {
+  const given = page.axes.map((axis, k) => [axis, view.allowed[k]]).filter(([axis]) => axis.given);
+  const one = given.length > 0 && given.every(([, allowed]) => allowed.filter(Boolean).length === 1);
+  const texts = one ? given.map(([axis, allowed]) => `${axis.name} ${withUnit(axis.values[allowed.indexOf(true)], axis.unit)}`) : [];
+  return {display: one, text: texts.join(', '), font: {size: 14}};
+}
 
 function scatterConfiguration() {
   return {
@@ -102,7 +175,8 @@ function scatterConfiguration() {
         if (point !== undefined) choose(point.row);
       },
       plugins: {
-        legend: {labels: {filter: (item) => item.text !== 'chosen', usePointStyle: true}},
+        legend: {position: hasCurves && innerWidth > 900 ? 'right' : 'top', labels: {filter: inLegend, usePointStyle: true, boxHeight: hasCurves ? 7 : undefined}},
+        title: titleOf(),
         tooltip: {
           filter: (item) => item.raw.row !== undefined && item.dataset.label !== 'chosen',
           callbacks: {label: (item) => pointLines(rows[item.raw.row])},
@@ -116,6 +190,7 @@ function refresh() {
   scatter.data.datasets = scatterData();
   scatter.options.scales.x = scaleOf('x', view.x);
   scatter.options.scales.y = scaleOf('y', view.y);
+  scatter.options.plugins.title = titleOf();
   scatter.update();
   refreshThumbnails();
   refreshTable();
@@ -131,17 +206,22 @@ function choose(index) {
 // Pages of sweeps.
 
 function scatterSection() {
-  const options = page.objectives.map((objective, k) => [k, withUnit(objective.path, objective.unit === '' ? '' : `(${objective.unit})`)]);
+  const options = shownFigures.map((figure, k) => [k, named(figure.path, figure)]);
   const toggle = (axis) => {
-    const box = element('input', {type: 'checkbox', id: `log-${axis}`, onchange: () => { view.logarithmic[axis] = box.checked; refresh(); }});
+    const box = element('input', {type: 'checkbox', id: `log-${axis}`, checked: view.logarithmic[axis], onchange: () => { view.logarithmic[axis] = box.checked; refresh(); }});
     return element('label', {}, box, 'logarithmic');
   };
   const pick = (axis) => {
-    const {label, box} = select(axis === 'x' ? 'across' : 'up', options, view[axis], (objective) => { view[axis] = Number(objective); refresh(); });
+    const {label, box} = select(axis === 'x' ? 'across' : 'up', options, view[axis], (figure) => {
+      view[axis] = Number(figure);
+      view.logarithmic[axis] = shownFigures[view[axis]].logarithmic === true;
+      document.getElementById(`log-${axis}`).checked = view.logarithmic[axis];
+      refresh();
+    });
     box.id = `axis-${axis}`;
     return label;
   };
-  section('Points', element('div', {class: 'controls'}, pick('x'), toggle('x'), pick('y'), toggle('y')), chart('scatter', 460, scatterConfiguration),
+  section('Points', element('div', {class: 'controls'}, pick('x'), toggle('x'), pick('y'), toggle('y')), chart('scatter', hasCurves ? 560 : 460, scatterConfiguration),
       element('p', {class: 'note', id: 'counts'}), element('div', {id: 'chosen'}));
 }
 
@@ -167,15 +247,15 @@ function showChosen() {
       element('h3', {}, `Point ${row.number}${isBaseline(row) ? ', the baseline' : ''}: ${row.state}`),
       png === undefined ? '' : element('img', {src: png, alt: '', width: 64, height: 64}),
       table(['parameter', 'value'], page.axes.map((axis, k) => [{text: axis.path, class: 'code'}, {text: withUnit(axis.values[row.values[k]], axis.unit), class: 'code'}])),
-      table(['objective', '>figure', 'unit', 'wanted'], page.objectives.map((objective, k) =>
-          [{text: objective.path, class: 'code'}, figureText(figureOf(row, k)), objective.unit, objective.most ? 'most' : 'least'])),
+      table(['figure', '>value', 'unit', 'wanted'], shownFigures.map((figure, k) =>
+          [{text: figure.path, class: 'code'}, figureText(figureOf(row, k)), figure.unit, figure.most === undefined ? '' : figure.most ? 'most' : 'least'])),
       note([row.error, row.front ? 'No point beats it.' : '', row.beaten_by === undefined ? '' : `Point ${row.beaten_by} beats it.`,
         row.met ? '' : 'It breaks a constraint.', row.digest === undefined ? '' : `Machine ${row.digest}..., scene ${row.scene}...`].filter(Boolean).join(' ')));
 }
 
 function boxesOf(axis, k) {
   return axis.values.map((value, v) => {
-    const box = element('input', {type: 'checkbox', checked: true, 'data-axis': String(k), 'data-value': String(v),
+    const box = element('input', {type: 'checkbox', checked: view.allowed[k][v], 'data-axis': String(k), 'data-value': String(v),
       onchange: () => { view.allowed[k][v] = box.checked; refresh(); }});
     return element('label', {}, box, withUnit(value, axis.unit));
   });
@@ -185,7 +265,8 @@ function boxesOf(axis, k) {
 function rangeOf(axis, k) {
   const order = axis.values.map((_, v) => v);
   if (axis.values.every((value) => value !== '' && Number.isFinite(Number(value)))) order.sort((a, b) => Number(axis.values[a]) - Number(axis.values[b]));
-  const ends = {from: 0, to: order.length - 1};
+  const allowed = order.map((v) => view.allowed[k][v]);
+  const ends = {from: allowed.indexOf(true), to: allowed.lastIndexOf(true)};
   const options = order.map((v, place) => [place, withUnit(axis.values[v], axis.unit)]);
   const pick = (end) => select(end, options, ends[end], (place) => {
     ends[end] = Number(place);
@@ -199,7 +280,7 @@ function filterSection() {
   const varied = page.axes.map((axis, k) => [axis, k]).filter(([axis]) => axis.values.length > 1);
   if (varied.length === 0) return;
   section('Filter by parameter', element('div', {class: 'filters'}, varied.map(([axis, k]) =>
-      element('fieldset', {}, element('legend', {}, axis.path), ...(axis.values.length <= mostBoxes ? boxesOf(axis, k) : rangeOf(axis, k))))))
+      element('fieldset', {}, element('legend', {}, axis.given ? `${axis.path}, given` : axis.path), ...(axis.values.length <= mostBoxes ? boxesOf(axis, k) : rangeOf(axis, k))))))
       .classList.add('no-paper');
 }
 
@@ -227,8 +308,8 @@ const columns = [
     const value = axis.values[row.values[k]];
     return Number.isFinite(Number(value)) ? Number(value) : value;
   }, text: (row) => axis.values[row.values[k]]})),
-  ...page.objectives.map((objective, k) => ({key: 'figure' + k, title: '>' + withUnit(objective.name, objective.unit === '' ? '' : `(${objective.unit})`),
-    tip: objective.path, value: (row) => figureOf(row, k), text: (row) => figureText(figureOf(row, k))})),
+  ...shownFigures.map((figure, k) => ({key: 'figure' + k, title: '>' + named(figure.name, figure),
+    tip: figure.path, value: (row) => figureOf(row, k), text: (row) => figureText(figureOf(row, k))})),
   {key: 'front', title: 'front', value: (row) => row.front ? 0 : row.beaten_by === undefined ? 2 : 1,
     text: (row) => row.front ? 'on it' : row.beaten_by === undefined ? row.error || '-' : `beaten by ${row.beaten_by}`},
 ];

@@ -19,6 +19,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // What "beats" says, pair by pair: in no objective worse, in one better; what is missing is worse than what is not.
 bool beats(const SweepTable& table, const Row& a, const Row& b) {
   bool better = false;
+  for (std::size_t axis = 0; axis < table.axes.size(); ++axis)
+    if (table.axes[axis].given && a.values[axis] != b.values[axis]) return false;
   for (std::size_t o = 0; o < table.objectives.size(); ++o) {
     const bool has_a = a.figures[o] && !std::isnan(*a.figures[o]);
     const bool has_b = b.figures[o] && !std::isnan(*b.figures[o]);
@@ -107,6 +109,23 @@ RC_GTEST_PROP(Front, IsThatOfBruteForceOnTablesOfHundreds, ()) {
   std::vector<int> codes((objectives + 1) * 400);
   std::ranges::generate(codes, [&] { return code(random); });
   expect_brute_force(coded_table(codes, objectives, values));
+}
+
+// Two axes that are given and one that is not: only points that agree in both are compared.
+RC_GTEST_PROP(Front, OfEachCaseIsThatOfBruteForce, ()) {
+  const auto objectives = *rc::gen::inRange<std::size_t>(0, 4);
+  const int values = *rc::gen::element(2, 12);
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  std::uniform_int_distribution<int> code(-2, values);
+  std::vector<int> codes((objectives + 1) * 200);
+  std::ranges::generate(codes, [&] { return code(random); });
+  SweepTable table = coded_table(codes, objectives, values);
+  table.axes = {numbered_axis("size", 3), numbered_axis("method", 5), numbered_axis("scene", 2)};
+  table.axes[0].given = table.axes[2].given = true;
+  for (Row& row : table.rows) row.values = {random() % 3, random() % 5, random() % 2};
+  expect_brute_force(table);
+  for (Row& row : table.rows)
+    RC_ASSERT(case_of(table, row) == (std::vector<std::size_t>{row.values[0], row.values[2]}));
 }
 
 // On the plane of a constant sum nothing beats anything; a copy that is worse by one in one objective is beaten, first

@@ -31,7 +31,7 @@ class ReadySweepTest : public ExploreTest {
     }
     return found;
   }
-  // The figure of an objective, for the row with these values of the axes.
+  // The figure of an objective or beside them, for the row with these values of the axes.
   static double figure(const explore::SweepTable& table, const std::string& objective,
                        const std::vector<std::string>& values) {
     for (const explore::Row& row : table.rows) {
@@ -40,6 +40,8 @@ class ReadySweepTest : public ExploreTest {
         same = same && table.axes[axis].values[row.values[axis]] == values[axis];
       for (std::size_t i = 0; same && i < table.objectives.size(); ++i)
         if (table.objectives[i].path == objective) return row.figures[i].value();
+      for (std::size_t i = 0; same && i < table.further.size(); ++i)
+        if (table.further[i].path == objective) return row.further[i].value();
     }
     throw std::out_of_range(objective);
   }
@@ -114,30 +116,43 @@ TEST_F(ReadySweepTest, Resolutions) {
               figure(table, "answer.headroom", {screen, "1", "28 bits"}));
 }
 
-// An eighth of it: every method once, on the smaller screen.
+// A sixteenth of it: every method on every scene, on the smaller screen with a slow host.
 TEST_F(ReadySweepTest, ShadingMethods) {
   const std::string file = std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps/shading_methods.toml";
-  const Outcome outcome = run({"explore", "run", file, "--store", "s.sqlite", "--jobs", "2", "--shard", "1/8"});
+  const Outcome outcome = run({"explore", "run", file, "--store", "s.sqlite", "--jobs", "2", "--shard", "1/16"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   explore::SweepTable found = table();
   std::erase_if(found.rows, [](const explore::Row& row) { return row.state != explore::State::done; });
-  ASSERT_EQ(found.rows.size(), 16U);
-  const auto error = [&](const char* method) {
-    return figure(found, "max(images[].error.rmse_level)", {method, "5", "256 x 256"});
+  ASSERT_EQ(found.rows.size(), 3 * found.axes.at(1).values.size());
+  for (const explore::Row& row : found.rows)
+    for (const std::optional<double>& one : row.further) EXPECT_TRUE(one.has_value()) << row.number;
+  const auto of = [&](const char* figure_path, const std::string& method, const char* scene = "teapot_four_lights") {
+    return figure(found, figure_path, {scene, method, "5", "256 x 256", "soft core"});
   };
-  const auto set_up = [&](const char* method) {
-    return figure(found, "budgets[set_up.frame].used", {method, "5", "256 x 256"});
-  };
-  EXPECT_LT(error("Phong"), error("Gouraud and Phong"));
-  EXPECT_LT(error("Gouraud and Phong"), error("gouraud"));
+  const auto error = [&](const std::string& method) { return of("images[0].error.rmse_level", method); };
+  const auto host = [&](const std::string& method) { return of("budgets[set_up.frame].used", method); };
+  EXPECT_LT(error("Phong"), error("Gouraud and Phong, 1 ring"));
+  EXPECT_LT(error("Gouraud and Phong, 1 ring"), error("Gouraud"));
   EXPECT_LT(error("pseudo-Phong 2"), error("pseudo-Phong 1"));
-  EXPECT_LT(error("regular 8 px"), error("regular 256 px"));
+  EXPECT_LT(error("regular 8 px, 1 ring"), error("regular 256 px, 1 ring"));
   EXPECT_LE(error("regular 32 px, 2 rings"), error("regular 32 px, no ring"));
   // Nothing is lit at corners; more parts, more light.
-  EXPECT_LT(set_up("Phong"), set_up("gouraud"));
-  EXPECT_LT(set_up("gouraud"), set_up("pseudo-Phong 1"));
-  EXPECT_LT(set_up("regular 256 px"), set_up("regular 8 px"));
-  EXPECT_LT(set_up("highlight 1.0"), set_up("highlight 0.05"));
+  EXPECT_LT(host("Phong"), host("Gouraud"));
+  EXPECT_LT(host("Gouraud"), host("pseudo-Phong 1"));
+  EXPECT_LT(host("regular 256 px, 1 ring"), host("regular 8 px, 1 ring"));
+  EXPECT_LT(host("highlight 1.0"), host("highlight 0.05"));
+  for (const char* scene : {"teapot_four_lights", "sphere_168", "sphere_690"}) {
+    EXPECT_EQ(of("images[0].shaded_pixels", "Gouraud", scene), 0.0);
+    EXPECT_EQ(of("images[0].lighting_evaluations", "Phong", scene), 0.0);
+    EXPECT_EQ(of("images[0].facing", "Phong", scene), of("images[0].drawn_pieces", "Phong", scene));
+    EXPECT_LT(of("images[0].facing", "pseudo-Phong 1", scene), of("images[0].drawn_pieces", "pseudo-Phong 1", scene));
+  }
+  // A curve a method, a point a threshold.
+  std::map<std::string, int> curves;
+  for (const std::string& curve : found.axes[1].curves) ++curves[curve];
+  EXPECT_EQ(curves["regular subdivision, 1 ring"], 6);
+  EXPECT_EQ(curves["highlight subdivision"], 5);
+  EXPECT_EQ(curves["Phong"], 1);
 }
 
 // Nobody adds one without a test above.

@@ -77,6 +77,51 @@ TEST_F(StoreTest, ResumedRunsNothingTwiceAndAChangedSweepOnlyWhatIsNew) {
   EXPECT_EQ(table().rows.size(), 10U);
 }
 
+// What is given, curves, names and further figures: in a store, and in joined ones.
+TEST_F(StoreTest, KeepsHowASweepIsShown) {
+  const std::string text =
+      "given = \"host.link_mbit_per_s\"\n[[vary]]\npath = \"host.link_mbit_per_s\"\nvalues = [5, 10]\n[[vary]]\nname = "
+      "\"shape\"\nvariant = [ { name = \"a\", curve = \"one\", set = { decision_unit.topology = \"tree\" } }, { name = "
+      "\"b\", set = { decision_unit.topology = \"pipeline\" } } ]\n[[column]]\npath = "
+      "\"answer.headroom\"\n[[column]]\npath "
+      "= \"budgets[no_such].used\"\nname = \"nothing\"\noptional = true\n[[objective]]\npath = "
+      "\"images[0].covered_pixels\"\nname = \"seen\"\nscale = \"log\"\nsense = \"maximise\"\n";
+  write("sweep.toml", sweep(text));
+  ASSERT_EQ(run(run_sweep()).exit_code, 0);
+  for (const std::string share : {"1", "2"})
+    ASSERT_EQ(run({"explore", "run", "sweep.toml", "--store", share + ".sqlite", "--shard", share + "/2"}).exit_code,
+              0);
+  ASSERT_EQ(run({"explore", "merge", "joined.sqlite", "1.sqlite", "2.sqlite"}).exit_code, 0);
+  for (const char* store : {"s.sqlite", "joined.sqlite"}) {
+    const explore::SweepTable found = table(store);
+    EXPECT_TRUE(found.axes.at(0).given);
+    EXPECT_FALSE(found.axes.at(1).given);
+    EXPECT_TRUE(found.axes[0].curves.empty());
+    EXPECT_EQ(found.axes[1].curves, (std::vector<std::string>{"one", "b"}));
+    EXPECT_EQ(found.objectives.at(0).name, "seen");
+    EXPECT_TRUE(found.objectives[0].logarithmic);
+    EXPECT_FALSE(found.objectives.at(1).logarithmic);
+    ASSERT_EQ(found.further.size(), 2U);
+    EXPECT_EQ(found.further[1].name, "nothing");
+    for (const explore::Row& row : found.rows) {
+      EXPECT_TRUE(row.further.at(0).has_value());
+      EXPECT_FALSE(row.further.at(1).has_value());
+    }
+  }
+  const std::string csv = run({"explore", "show", "s.sqlite", "--csv"}).out;
+  EXPECT_THAT(csv, HasSubstr(",answer.headroom (fraction),budgets[no_such].used,config_digest"));
+}
+
+// Only a report shows that it has no such budget.
+TEST_F(StoreTest, NamesAColumnThatReportsDoNotHave) {
+  write("sweep.toml", sweep("[[vary]]\npath = \"decision_unit.topology\"\nvalues = [\"pipeline\", \"tree\"]\n"
+                            "[[column]]\npath = \"budgets[line_strt].used\"\n"));
+  const Outcome outcome = run(run_sweep());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("sweep.toml:8: budgets[line_strt].used"), HasSubstr("nearest: 'line_start'")));
+}
+
 TEST_F(StoreTest, JobsAndSharesDoNotMatter) {
   write("sweep.toml", grid(4));
   ASSERT_EQ(run(run_sweep({"--jobs", "1"})).exit_code, 0);
@@ -267,7 +312,7 @@ TEST_F(StoreTest, WhatIsNoStoreOfThisProgram) {
   ASSERT_EQ(run(run_sweep()).exit_code, 0);
   explore::Database(in_work("s.sqlite"), explore::Database::Access::existing)
       .execute("PRAGMA journal_mode = DELETE; PRAGMA user_version = 7");
-  refused("s.sqlite", "the store is of schema 7, and this program reads 1");
+  refused("s.sqlite", "the store is of schema 7, and this program reads 2");
   EXPECT_THAT(run({"explore", "show", "none.sqlite"}).err, HasSubstr("no such store"));
 }
 

@@ -122,5 +122,37 @@ TEST(SweepPage, InABrowser) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
 }
 
+// Methods with thresholds, each a curve, on three screens that are given; of one no figure is there.
+SweepTable curves() {
+  SweepTable table;
+  table.name = "methods";
+  table.question = "Which method?";
+  table.axes = {axis_of("method", {"flat", "cut 4", "cut 2", "cut 1", "exact"}),
+                axis_of("screen", {"small", "large", "none"})};
+  table.axes[0].curves = {"flat", "cut", "cut", "cut", "exact"};
+  table.axes[1].given = true;
+  table.objectives = {{"budgets[frame].used", "us", Sense::minimise, "time", true},
+                      {"images[0].error.rmse_level", "levels", Sense::minimise, "error", true}};
+  table.further = {{"images[0].drawn_pieces", "triangles", ""}};
+  add_grid(table, [](const Values& v) {
+    static constexpr double kTimes[] = {10, 20, 50, 700, 300};
+    static constexpr double kErrors[] = {12, 6, 2, 1, 0.3};
+    if (v[1] == 2) return Figures{std::nullopt, std::nullopt};
+    return Figures{kTimes[v[0]] * static_cast<double>(1 + v[1]), kErrors[v[0]]};
+  });
+  for (Row& row : table.rows) row.further = {static_cast<double>(100 + row.number)};
+  table.baseline = 1;  // flat, large
+  return table;
+}
+
+TEST(SweepPage, OfCurvesInABrowser) {
+  const std::filesystem::path folder = std::filesystem::path(RASTERTLM_ARTEFACTS);
+  std::filesystem::create_directories(folder);
+  const std::string page = folder / "curves.html";
+  std::ofstream(page, std::ios::binary) << sweep_page(curves());
+  const test::PageOutcome outcome = test::check_page("check_curves_page.py", {page, folder, "curves"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out;
+}
+
 }  // namespace
 }  // namespace rastertlm::explore

@@ -268,6 +268,77 @@ TEST_F(SweepTest, RefusesFiguresThatCannotBeCompared) {
   EXPECT_THAT(mistake("constraints = [\"answer.bottleneck.unit = 1\"]\n" + good), HasSubstr("is text, no number"));
 }
 
+const char* const kCurves =
+    "[[vary]]\nname = \"loader\"\nvariant = [ { name = \"one\", curve = \"c\", set = { loader.kind = \"sequencer\", "
+    "loader.when = \"retrace\" } }, { name = \"two\", set = { loader.kind = \"mc68000\", loader.when = \"frame\" } } "
+    "]\n";
+
+TEST_F(SweepTest, FiguresMayHaveNamesAndStandBesideTheObjectives) {
+  const Sweep sweep = read(vary(kUnits, "values = [1, 2]") +
+                               "[[column]]\npath = \"answer.headroom\"\n[[column]]\npath = \"budgets[x].used\"\nname = "
+                               "\"x\"\noptional = true\n",
+                           "[[objective]]\npath = \"images[0].error.rmse_level\"\nname = \"RMSE\"\nsense = "
+                           "\"minimise\"\nscale = \"log\"\n");
+  EXPECT_EQ(sweep.objectives.at(0).name, "RMSE");
+  EXPECT_TRUE(sweep.objectives.at(0).logarithmic);
+  ASSERT_EQ(sweep.further.size(), 2U);
+  EXPECT_EQ(sweep.further[0].path, "answer.headroom");
+  EXPECT_EQ(sweep.further[0].unit, "fraction");
+  EXPECT_EQ(sweep.further[1].name, "x");
+  EXPECT_FALSE(sweep.written_further[0].optional);
+  EXPECT_TRUE(sweep.written_further[1].optional);
+  EXPECT_EQ(sweep.written_further[1].line, 10);
+}
+
+TEST_F(SweepTest, NamesWhatIsWrongWithAColumn) {
+  const auto said = [&](const std::string& column) {
+    return mistake(vary(kUnits, "values = [1, 2]") + "[[column]]\n" + column);
+  };
+  EXPECT_EQ(said("path = \"answer.headroom\"\n"), "");
+  EXPECT_THAT(said("path = \"answer.headrom\"\n"),
+              HasSubstr("sweep.toml:8: column[0].path: unknown figure 'answer.headrom'; nearest: 'answer.headroom'"));
+  EXPECT_THAT(said("path = \"answer.frame_rate_hz\"\n"), HasSubstr("column[0].path: stands there twice"));
+  EXPECT_THAT(said("path = \"machine.host.links_availabel\"\n"), HasSubstr("nearest known: 'host.links_available'"));
+  EXPECT_THAT(said("path = \"answer.bottleneck.unit\"\n"), HasSubstr("is text, no number"));
+  EXPECT_THAT(said("name = \"x\"\n"), HasSubstr("column[0].path: required key is missing"));
+  EXPECT_THAT(said("path = \"answer.headroom\"\nnme = \"x\"\n"), HasSubstr("nearest known: 'column[0].name'"));
+  EXPECT_THAT(
+      said("path = \"answer.headroom\"\nname = \"x\"\n[[column]]\npath = \"answer.torn_frames\"\nname = \"x\"\n"),
+      HasSubstr("sweep.toml:12: column[1].name: 'x' is another figure's name"));
+  EXPECT_THAT(mistake("[[colum]]\npath = \"answer.headroom\"\n" + vary(kUnits, "values = [1, 2]")),
+              HasSubstr("unknown key 'colum'; nearest known: 'column'"));
+}
+
+TEST_F(SweepTest, AxesMayBeGiven) {
+  const std::string two =
+      vary(kUnits, "values = [4, 8]") + vary("decision_unit.topology", "values = [\"tree\", \"pipeline\"]");
+  const Sweep sweep = read("given = [\"decision_unit.topology\"]\n" + two);
+  EXPECT_FALSE(sweep.axes.at(0).given);
+  EXPECT_TRUE(sweep.axes.at(1).given);
+  EXPECT_THAT(
+      mistake("given = [\"decision_unit.topolgy\"]\n" + two),
+      HasSubstr("sweep.toml:4: given: 'decision_unit.topolgy' does not vary; nearest: 'decision_unit.topology'"));
+  EXPECT_THAT(mistake("given = [\"decision_unit.topology\", \"decision_unit.topology\"]\n" + two),
+              HasSubstr("given: 'decision_unit.topology' stands there twice"));
+  EXPECT_THAT(mistake("given = [\"host.computation_units\", \"decision_unit.topology\"]\n" + two),
+              HasSubstr("sweep.toml:4: given: everything that varies is given"));
+  EXPECT_THAT(mistake("given = 3\n" + two), HasSubstr("wrong type: expected text, or a list of texts"));
+}
+
+// One that names no curve is one by itself, where another does.
+TEST_F(SweepTest, VariantsMayBePointsOfACurve) {
+  const Vary axis = read(kCurves).axes.at(0);
+  EXPECT_EQ(axis.choices.at(0).curve, "c");
+  EXPECT_EQ(axis.choices.at(1).curve, "two");
+  std::string none = kCurves;
+  none.replace(none.find("curve = \"c\", "), 13, "");
+  EXPECT_EQ(read(none).axes.at(0).choices.at(1).curve, "");
+  std::string wrong = kCurves;
+  wrong.replace(wrong.find("curve = \"c\""), 11, "curve = 3");
+  EXPECT_THAT(mistake(wrong),
+              HasSubstr("vary[0].variant[0].curve: unknown key; a variant has a name and a curve, texts"));
+}
+
 // Once, and not also that the axis has no start.
 TEST_F(SweepTest, SaysOnceWhatIsWrongWithABaseline) {
   const std::string said = mistake(vary(kUnits, "values = [2, 4]") + "[baseline]\n\"host.computation_units\" = 3\n");

@@ -102,6 +102,58 @@ TEST(SweepText, ListsTheFrontAndWhatItBeats) {
   EXPECT_TRUE(has_line(front_section(table, front, 1), "  1 more; --rows says how many are listed, --csv lists all."));
 }
 
+// Two screens that are given: each has its answer, its front and its points of the beaten.
+SweepTable given_table() {
+  SweepTable table;
+  table.axes = {axis_of("method", {"flat", "smooth", "slow"}), axis_of("screen", {"small", "large"})};
+  table.axes[1].given = true;
+  table.objectives = {{"budgets[frame].used", "us", Sense::minimise, "time", true},
+                      {"images[0].error.rmse_level", "levels", Sense::minimise}};
+  table.further = {{"images[0].drawn_pieces", "triangles", "triangles out"}, {"answer.headroom", "fraction", ""}};
+  add_grid(table, [](const Values& v) {
+    const double size = v[1] == 0 ? 1.0 : 4.0;
+    return Figures{10.0 * size * (1.0 + static_cast<double>(v[0])), v[0] == 1 ? 2.0 : 8.0};
+  });
+  for (Row& row : table.rows) row.further = {100.0 + static_cast<double>(row.number), std::nullopt};
+  table.baseline = 1;  // flat, large
+  return table;
+}
+
+TEST(SweepText, AnswersInTheBaselinesCase) {
+  const SweepTable table = given_table();
+  const Front front = find_front(table);
+  EXPECT_EQ(front.rows, (std::vector<std::size_t>{0, 1, 2, 3}));
+  const std::string text = answer_section(table, front);
+  EXPECT_TRUE(has_line(text,
+                       "Answer, given screen = large: method = flat (point 1): time 40 us, the least of 3 points, "
+                       "with rmse_level 8 levels."))
+      << text;
+  EXPECT_TRUE(has_line(text, "6 points of 2 cases: 4 on the front of its case, 2 beaten by it.")) << text;
+}
+
+TEST(SweepText, ShowsFurtherFiguresCaseByCase) {
+  const SweepTable table = given_table();
+  const Front front = find_front(table);
+  const std::string text = front_section(table, front, 10);
+  EXPECT_EQ(words_after(text, "point"), (Fields{"method", "screen", "time,", "us", "rmse_level", "triangles", "out",
+                                                "headroom", "equal", "to", "it"}))
+      << text;
+  EXPECT_EQ(words_after(text, "3  "), (Fields{"smooth", "large", "80", "2", "103", "-"})) << text;
+  EXPECT_LT(text.find("smooth   large"), text.find("flat   small")) << text;  // the baseline's case comes first
+  EXPECT_EQ(words_after(beaten_section(table, front, 1), "5  "),
+            (Fields{"slow", "large", "120", "8", "105", "-", "1"}));
+}
+
+// Without a baseline the first point of the front says which case is meant; where its case has no front, too.
+TEST(SweepText, AnswersInACaseThatHasAFront) {
+  SweepTable table = given_table();
+  for (const std::size_t r : {1, 3, 5}) table.rows[r].allowed = false;
+  const Front front = find_front(table);
+  EXPECT_EQ(answer_row(table, front), 0U);
+  table.baseline.reset();
+  EXPECT_EQ(answer_row(table, front), 0U);
+}
+
 TEST(SweepText, OrdersParametersByHowFarTheyMove) {
   const SweepTable table = question_table();
   const std::string text = sensitivity_section(table, find_sensitivity(table));
@@ -201,6 +253,17 @@ RC_GTEST_PROP(SweepCsv, IsReadAgain, ()) {
   RC_ASSERT(rows[3][4] == (front.has(2) ? "1" : "0"));
   RC_ASSERT(rows[1][4].empty());
   for (const Fields& row : rows) RC_ASSERT(row.size() == rows[0].size());
+}
+
+TEST(SweepCsv, HasFurtherFiguresBehindTheObjectives) {
+  const SweepTable table = given_table();
+  const std::vector<Fields> rows = parsed(table_csv(table, find_front(table)));
+  EXPECT_EQ(rows[0][10], "images[0].drawn_pieces (triangles)");
+  EXPECT_EQ(rows[0][11], "answer.headroom (fraction)");
+  EXPECT_EQ(rows[4][10], "103");
+  EXPECT_EQ(rows[4][11], "");
+  for (const Fields& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  EXPECT_NE(table_text(table, 10).find("answer.headroom (fraction)"), std::string::npos);
 }
 
 TEST(SweepCsv, HasEffectsAndMoves) {

@@ -147,5 +147,18 @@ RC_GTEST_PROP(WhatIf, FindsTheBestOfAllNeighbours, ()) {
   }
 }
 
+// What is given is not ours to change.
+TEST(WhatIf, MovesNothingThatIsGiven) {
+  SweepTable table;
+  table.axes = {numbered_axis("size", 3), axis_of("kind", {"a", "b"})};
+  table.objectives = {objective_of("bits", Sense::minimise)};
+  add_grid(table, [](const std::vector<std::size_t>& v) { return Figures{static_cast<double>(10 * v[0] + v[1])}; });
+  EXPECT_EQ(find_what_if(table, 3).moves.size(), 3U);
+  table.axes[0].given = true;
+  const WhatIf result = find_what_if(table, 3);
+  ASSERT_EQ(result.moves.size(), 1U);
+  EXPECT_EQ(result.moves[0].axis, 1U);
+}
+
 }  // namespace
 }  // namespace rastertlm::explore
