@@ -95,11 +95,10 @@ std::string cases_line(const SweepTable& table, const Names& names) {
   std::string given;
   for (std::size_t a = 0; a < table.axes.size(); ++a)
     if (table.axes[a].given) given += (given.empty() ? "" : ", ") + names.axes[a];
-  return given.empty() ? ""
-                       : fmt::format(
-                             "{}Given are {}: points are compared where these are the same. The case of the "
-                             "answer comes first.\n",
-                             kIndent, given);
+  return given.empty()
+             ? ""
+             : fmt::format("{}Given: {}. Points are compared where that is the same; the answer's case comes first.\n",
+                           kIndent, given);
 }
 
 std::string rest_line(std::size_t shown, std::size_t all) {
@@ -135,7 +134,7 @@ std::string counts_sentence(const SweepTable& table, const Front& front) {
   std::string text =
       fmt::format("{}{}: {} on the front{}, {} beaten by it", counted(table.rows.size(), "point", "points"),
                   cases.size() > 1 ? fmt::format(" of {} cases", grouped(cases.size())) : "",
-                  grouped(front.rows.size()), cases.size() > 1 ? " of its case" : "",
+                  grouped(front.rows.size()), cases.size() > 1 ? " of their cases" : "",
                   grouped(table.rows.size() - failed - waiting - breaking - front.rows.size()));
   if (breaking > 0) text += fmt::format(", {} against the constraints", grouped(breaking));
   if (failed > 0) text += fmt::format(", {} failed", grouped(failed));

@@ -30,6 +30,7 @@ def main():
         browser.open(page)
         for one in sys.argv[3:]:
             keep(browser, *one.split("=", 1))
+        browser.evaluate("view.chosen = null, refresh()")
         left, top, width, height = browser.evaluate("""(() => { const box = document.getElementById('scatter').parentElement.getBoundingClientRect();
             return [box.left + scrollX, box.top + scrollY, box.width, box.height]; })()""")
         shot = browser.call("Page.captureScreenshot", format="png", captureBeyondViewport=True,

@@ -155,13 +155,34 @@ TEST_F(ReadySweepTest, ShadingMethods) {
   EXPECT_EQ(curves["Phong"], 1);
 }
 
+// Of a sweep whose points are the screens' own: no --set for all.
+TEST_F(ReadySweepTest, RegularSubdivision) {
+  const std::string file = std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps/regular_subdivision.toml";
+  const Outcome outcome = run({"explore", "run", file, "--store", "s.sqlite", "--jobs", "2"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(run({"explore", "show", "s.sqlite"}).out, HasSubstr("Answer, given screen = 512 x 512: "));
+  const explore::SweepTable found = table();
+  ASSERT_EQ(found.rows.size(), 48U);
+  const auto parts = [&](const char* area, const char* rings, const char* screen) {
+    return figure(found, "images[0].drawn_pieces", {area, rings, screen});
+  };
+  for (const char* screen : {"256 x 256", "512 x 512"}) {
+    EXPECT_GT(parts("8.0", "1", screen), parts("16.0", "1", screen));
+    EXPECT_GT(parts("8.0", "2", screen), parts("8.0", "1", screen));
+    EXPECT_LT(figure(found, "images[0].error.rmse_level", {"8.0", "1", screen}),
+              figure(found, "images[0].error.rmse_level", {"64.0", "1", screen}));
+  }
+  // A quarter of the area on half the screen: the same parts, but for what the grid drops.
+  EXPECT_NEAR(parts("8.0", "1", "256 x 256"), parts("32.0", "1", "512 x 512"), 0.01 * parts("32.0", "1", "512 x 512"));
+}
+
 // Nobody adds one without a test above.
 TEST_F(ReadySweepTest, AllAreTested) {
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps"))
     found.insert(entry.path().stem().string());
-  EXPECT_EQ(found, (std::set<std::string>{"loaders", "pipeline_or_tree", "resolutions", "shading_methods", "span_units",
-                                          "transputers", "word_lengths"}));
+  EXPECT_EQ(found, (std::set<std::string>{"loaders", "pipeline_or_tree", "regular_subdivision", "resolutions",
+                                          "shading_methods", "span_units", "transputers", "word_lengths"}));
 }
 
 }  // namespace

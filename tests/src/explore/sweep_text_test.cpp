@@ -128,7 +128,7 @@ TEST(SweepText, AnswersInTheBaselinesCase) {
                        "Answer, given screen = large: method = flat (point 1): time 40 us, the least of 3 points, "
                        "with rmse_level 8 levels."))
       << text;
-  EXPECT_TRUE(has_line(text, "6 points of 2 cases: 4 on the front of its case, 2 beaten by it.")) << text;
+  EXPECT_TRUE(has_line(text, "6 points of 2 cases: 4 on the front of their cases, 2 beaten by it.")) << text;
 }
 
 TEST(SweepText, ShowsFurtherFiguresCaseByCase) {
@@ -138,6 +138,8 @@ TEST(SweepText, ShowsFurtherFiguresCaseByCase) {
   EXPECT_EQ(words_after(text, "point"), (Fields{"method", "screen", "time,", "us", "rmse_level", "triangles", "out",
                                                 "headroom", "equal", "to", "it"}))
       << text;
+  EXPECT_TRUE(
+      has_line(text, "  Given: screen. Points are compared where that is the same; the answer's case comes first."));
   EXPECT_EQ(words_after(text, "3  "), (Fields{"smooth", "large", "80", "2", "103", "-"})) << text;
   EXPECT_LT(text.find("smooth   large"), text.find("flat   small")) << text;  // the baseline's case comes first
   EXPECT_EQ(words_after(beaten_section(table, front, 1), "5  "),
