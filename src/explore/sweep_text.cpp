@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/explore/sweep_cases.h"
 #include "src/explore/sweep_words.h"
 #include "src/report/number_text.h"
 #include "src/report/text_table.h"
@@ -16,7 +17,6 @@ namespace rastertlm::explore {
 namespace {
 
 using report::Align;
-using report::Column;
 using report::counted;
 using report::grouped;
 using report::TextTable;
@@ -38,67 +38,6 @@ int order_of(const SweepTable& table, const Row& a, const Row& b) {
 
 bool is_equal(const SweepTable& table, const Row& a, const Row& b) {
   return order_of(table, a, b) == 0 && case_of(table, a) == case_of(table, b);
-}
-
-// A name that the sweep gives may not say the unit.
-template <typename Figure>
-Column figure_column(const Figure& figure, const std::string& name) {
-  const bool says = figure.name.empty() || figure.unit.empty() || name.find(figure.unit) != std::string::npos;
-  return {says ? name : fmt::format("{}, {}", name, in_one_line(figure.unit)), Align::right};
-}
-
-std::vector<Column> point_columns(const SweepTable& table, const Names& names) {
-  std::vector<Column> columns{{"point", Align::right}};
-  for (const std::string& name : names.axes) columns.push_back({name, Align::right});
-  for (std::size_t o = 0; o < table.objectives.size(); ++o)
-    columns.push_back(figure_column(table.objectives[o], names.objectives[o]));
-  for (std::size_t k = 0; k < table.further.size(); ++k)
-    columns.push_back(figure_column(table.further[k], names.further[k]));
-  return columns;
-}
-
-std::vector<std::string> point_cells(const SweepTable& table, const Row& row) {
-  std::vector<std::string> cells{std::to_string(row.number)};
-  for (std::size_t a = 0; a < table.axes.size(); ++a)
-    cells.push_back(in_one_line(table.axes[a].values.at(row.values[a])));
-  for (const auto& figure : row.figures) cells.push_back(shown_figure(figure));
-  for (const auto& figure : row.further) cells.push_back(shown_figure(figure));
-  return cells;
-}
-
-// The case that is asked for: the baseline's, else that of the front's first point. There is one where a front is.
-std::vector<std::size_t> asked_case(const SweepTable& table, const Front& front) {
-  if (table.baseline) {
-    std::vector<std::size_t> own = case_of(table, table.rows.at(*table.baseline));
-    if (std::ranges::any_of(front.rows, [&](std::size_t r) { return case_of(table, table.rows[r]) == own; }))
-      return own;
-  }
-  return front.rows.empty() ? std::vector<std::size_t>{} : case_of(table, table.rows[front.rows.front()]);
-}
-
-bool has_cases(const SweepTable& table) {
-  return std::ranges::any_of(table.axes, [](const Axis& axis) { return axis.given; });
-}
-
-// Rows of the asked case first, then case by case.
-void sort_by_case(const SweepTable& table, const Front& front, std::vector<std::size_t>& rows) {
-  if (!has_cases(table)) return;
-  const std::vector<std::size_t> asked = asked_case(table, front);
-  const auto key = [&](std::size_t r) {
-    const std::vector<std::size_t> own = case_of(table, table.rows[r]);
-    return std::pair(own != asked, own);
-  };
-  std::ranges::stable_sort(rows, [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-}
-
-std::string cases_line(const SweepTable& table, const Names& names) {
-  std::string given;
-  for (std::size_t a = 0; a < table.axes.size(); ++a)
-    if (table.axes[a].given) given += (given.empty() ? "" : ", ") + names.axes[a];
-  return given.empty()
-             ? ""
-             : fmt::format("{}Given: {}. Points are compared where that is the same; the answer's case comes first.\n",
-                           kIndent, given);
 }
 
 std::string rest_line(std::size_t shown, std::size_t all) {
@@ -244,18 +183,13 @@ std::string front_section(const SweepTable& table, const Front& front, std::size
   std::ranges::stable_sort(
       order, [&](std::size_t a, std::size_t b) { return order_of(table, table.rows[a], table.rows[b]) < 0; });
   sort_by_case(table, front, order);
-  text += cases_line(table, names);
-  std::vector<Column> columns = point_columns(table, names);
-  columns.push_back({"equal to it", Align::right});
-  TextTable rows(std::move(columns), kIndent);
+  CaseTables rows(table, names, "equal to it");
   std::size_t shown = 0;
   std::size_t covered = 0;
   for (std::size_t i = 0; i < order.size() && shown < most_rows; ++shown) {
     std::size_t end = i + 1;
     while (end < order.size() && is_equal(table, table.rows[order[i]], table.rows[order[end]])) ++end;
-    std::vector<std::string> cells = point_cells(table, table.rows[order[i]]);
-    cells.push_back(end - i > 1 ? counted(end - i - 1, "point", "points") : "");
-    rows.row(std::move(cells));
+    rows.add(table.rows[order[i]], end - i > 1 ? counted(end - i - 1, "point", "points") : "");
     covered += end - i;
     i = end;
   }
@@ -264,21 +198,15 @@ std::string front_section(const SweepTable& table, const Front& front, std::size
 
 std::string beaten_section(const SweepTable& table, const Front& front, std::size_t most_rows) {
   const Names names(table);
-  std::vector<Column> columns = point_columns(table, names);
-  columns.push_back({"beaten by", Align::right});
-  TextTable rows(std::move(columns), kIndent);
+  CaseTables rows(table, names, "beaten by");
   std::vector<std::size_t> beaten;
   for (std::size_t r = 0; r < table.rows.size(); ++r)
     if (front.beaten_by[r]) beaten.push_back(r);
   sort_by_case(table, front, beaten);
   const std::size_t all = beaten.size();
   const std::size_t shown = std::min(all, most_rows);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const std::size_t r = beaten[i];
-    std::vector<std::string> cells = point_cells(table, table.rows[r]);
-    cells.push_back(std::to_string(table.rows[*front.beaten_by[r]].number));
-    rows.row(std::move(cells));
-  }
+  for (std::size_t i = 0; i < shown; ++i)
+    rows.add(table.rows[beaten[i]], std::to_string(table.rows[*front.beaten_by[beaten[i]]].number));
   std::string text;
   if (table.baseline && front.compared[*table.baseline]) {
     const Row& base = table.rows[*table.baseline];
