@@ -42,9 +42,14 @@ set_up::ColourCounts since(const set_up::ColourCounts& now, const set_up::Colour
 }
 template <>
 set_up::SubdivisionCounts since(const set_up::SubdivisionCounts& now, const set_up::SubdivisionCounts& then) {
-  return {now.divided - then.divided,  now.parts - then.parts,     now.centres - then.centres,
-          now.beside - then.beside,    now.unfound - then.unfound, now.inserted - then.inserted,
-          now.at_limit - then.at_limit};
+  return {now.divided - then.divided,   now.parts - then.parts,
+          now.centres - then.centres,   now.beside - then.beside,
+          now.unfound - then.unfound,   now.inserted - then.inserted,
+          now.at_limit - then.at_limit, now.at_grid_limit - then.at_grid_limit};
+}
+template <>
+set_up::StitchCounts since(const set_up::StitchCounts& now, const set_up::StitchCounts& then) {
+  return {now.triangles - then.triangles, now.corners - then.corners};
 }
 template <>
 set_up::LightingCounts since(const set_up::LightingCounts& now, const set_up::LightingCounts& then) {
@@ -133,8 +138,10 @@ void SetUpWork::begin_frame(const geometry::Pose& pose, bool viewer_at_eye) {
   counts_ = {};
   colour_start_ = colourer_.counts();
   subdivision_start_ = colourer_.subdivision();
+  stitch_start_ = colourer_.stitched();
   lighting_start_ = lighting_.counts();
   if (parameters_.classifies()) classify();
+  if (parameters_.stitches()) survey();
 }
 
 // Before any triangle is drawn: what it takes is charged to the first.
@@ -146,6 +153,39 @@ void SetUpWork::classify() {
     counts_.classified += classifiers_[i].counts();
     waiting_operations_ += classifiers_[i].operations();
   }
+}
+
+bool SetUpWork::is_highlighted(std::size_t object, std::size_t triangle) const {
+  return !highlighted_.empty() && (*highlighted_[object])[triangle] != set_up::Highlighted::no;
+}
+
+// Where triangles are stitched to those beside them, what may hold a highlight is cut up before any triangle is drawn.
+// Charged to the first, too.
+void SetUpWork::survey() {
+  colourer_.begin_frame();
+  const OperationCounts colouring = colourer_.operations();
+  triangle_operations_ = {};
+  for (object_ = 0; object_ < scene_.objects.size(); ++object_)
+    for (triangle_ = 0; triangle_ < scene_.objects[object_].mesh->triangles.size(); ++triangle_) {
+      ++number_;
+      if (!is_highlighted(object_, triangle_)) continue;
+      for (const auto& piece : pieces_counted(object_, triangle_).list()) {
+        fill_request(piece, object_, triangle_);
+        colourer_.cut(request_);
+      }
+    }
+  waiting_operations_ += triangle_operations_;
+  waiting_operations_ += colourer_.operations() - colouring;
+  object_ = triangle_ = 0;
+  number_ = 0;
+}
+
+// What nothing is cut from costs what all such triangles do; others are computed once more, counting.
+set_up::Pieces<double> SetUpWork::pieces_counted(std::size_t object, std::size_t triangle) {
+  bool cut = false;
+  const set_up::Pieces<double> pieces = pieces_of(object, triangle, cut);
+  triangle_operations_ += cut ? counted([&] { count_pieces(); }) : inside_cost_;
+  return pieces;
 }
 
 set_up::Pieces<double> SetUpWork::pieces_of(std::size_t object, std::size_t triangle, bool& cut) const {
@@ -199,8 +239,7 @@ bool SetUpWork::next() {
   load_count_ = 0;
   const OperationCounts colouring = colourer_.operations();
   const std::uint64_t back_faces = colourer_.counts().back_faces;
-  triangle_operations_ = waiting_operations_;
-  waiting_operations_ = {};
+  triangle_operations_ = {};
   ++number_;
   ++counts_.triangles;
   const std::size_t lane = triangle_ % set_up::kLanes;
@@ -210,14 +249,14 @@ bool SetUpWork::next() {
     colour(set_up::triangle_of_lane<double>(screen_, lane), object_, triangle_);
     count_outcome(1, back_faces);
   } else {
-    bool cut = false;
-    const set_up::Pieces<double> pieces = pieces_of(object_, triangle_, cut);
-    // What nothing is cut from costs what all such triangles do; others are computed once more, counting.
-    triangle_operations_ += cut ? counted([&] { count_pieces(); }) : inside_cost_;
+    const set_up::Pieces<double> pieces = pieces_counted(object_, triangle_);
     if (pieces.size > 1) counts_.pieces += pieces.size - 1;
     for (const auto& piece : pieces.list()) colour(piece, object_, triangle_);
     count_outcome(pieces.size, back_faces);
   }
+  // What was surveyed has been transformed, and that charged.
+  if (parameters_.stitches() && is_highlighted(object_, triangle_)) triangle_operations_ = {};
+  triangle_operations_ += std::exchange(waiting_operations_, {});
   triangle_operations_ += colourer_.operations() - colouring;
   if (parameters_.makes_parts()) frame_.insert(frame_.end(), coloured_.begin(), coloured_.end());
   for (const set_up::ColourTriangle& triangle : coloured_) {
@@ -260,6 +299,7 @@ SetUpCounts SetUpWork::counts() const {
   counts.colour = since(colourer_.counts(), colour_start_);
   counts.lighting = since(lighting_.counts(), lighting_start_);
   counts.subdivision = since(colourer_.subdivision(), subdivision_start_);
+  counts.stitched = since(colourer_.stitched(), stitch_start_);
   return counts;
 }
 
@@ -270,12 +310,12 @@ glm::dvec3 SetUpWork::eye_position(const geometry::ScreenVertex<double>& corner)
   return glm::dvec3(eye) / eye.w;
 }
 
-void SetUpWork::colour(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle) {
+void SetUpWork::fill_request(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle) {
   set_up::ColourRequest& request = request_;
   request.object = number_;
   request.material = scene_.objects[object].mesh->material[triangle];
   request.two_sided = scene_.objects[object].two_sided;
-  request.highlighted = !highlighted_.empty() && (*highlighted_[object])[triangle] != set_up::Highlighted::no;
+  request.highlighted = is_highlighted(object, triangle);
   const int finer = parameters_.corner_bits() - static_cast<int>(parameters_.snap_bits);
   for (std::size_t i = 0; i < 3; ++i) {
     const geometry::ScreenVertex<double>& corner = piece[i];
@@ -291,9 +331,13 @@ void SetUpWork::colour(const set_up::ScreenTriangle<double>& piece, std::size_t 
   if (lighting_.needs_positions()) triangle_operations_ += position_costs_;
   const bool chosen = parameters_.method != ShadingMethod::gouraud_phong || request.highlighted;
   request.by_pixels = shader_ != nullptr && chosen;
+}
+
+void SetUpWork::colour(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle) {
+  fill_request(piece, object, triangle);
   const std::size_t before = coloured_.size();
-  colourer_.colour(request, coloured_);
-  if (request.by_pixels && coloured_.size() > before) give_shading();
+  colourer_.colour(request_, coloured_);
+  if (request_.by_pixels && coloured_.size() > before) give_shading();
 }
 
 // To the triangle that came last: what the pixel unit needs to know of it.

@@ -48,6 +48,7 @@ struct SetUpCounts {
   set_up::ColourCounts colour;            // of pieces and of what they are split into, one by one
   set_up::ClassifiedCounts classified;    // methods of 003
   set_up::SubdivisionCounts subdivision;  // likewise
+  set_up::StitchCounts stitched;          // likewise
   set_up::LightingCounts lighting;
   geometry::OperationCounts operations;
 };
@@ -82,7 +83,11 @@ class SetUpWork {
   using Number = geometry::Counted<double>;
   void transform_block();
   set_up::Pieces<double> pieces_of(std::size_t object, std::size_t triangle, bool& cut) const;
+  set_up::Pieces<double> pieces_counted(std::size_t object, std::size_t triangle);
   void count_pieces() const;
+  bool is_highlighted(std::size_t object, std::size_t triangle) const;
+  void survey();
+  void fill_request(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle);
   void colour(const set_up::ScreenTriangle<double>& piece, std::size_t object, std::size_t triangle);
   glm::dvec3 eye_position(const geometry::ScreenVertex<double>& corner) const;
   void count_paths();
@@ -115,6 +120,7 @@ class SetUpWork {
   geometry::OperationCounts triangle_operations_;
   set_up::ColourCounts colour_start_;
   set_up::SubdivisionCounts subdivision_start_;
+  set_up::StitchCounts stitch_start_;
   set_up::LightingCounts lighting_start_;
   std::vector<set_up::HighlightClassifier> classifiers_;  // an object each, for methods that need them
   std::vector<const std::vector<set_up::Highlighted>*> highlighted_;

@@ -1,10 +1,13 @@
 #include "modules/set_up/colour_steps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace rastertlm::set_up {
 namespace {
@@ -45,9 +48,10 @@ double step_along(const ColourTriangle& a, const ColourTriangle& b, const Snappe
   return largest;
 }
 
-class Steps {
+// Corners of children that were moved are beside their parents' edges: halves of an edge are looked for by their ends.
+class MovedSteps {
  public:
-  Steps(std::span<const ColourTriangle> triangles, int moved_bits) : moved_bits_(moved_bits) {
+  MovedSteps(std::span<const ColourTriangle> triangles, int moved_bits) : moved_bits_(moved_bits) {
     for (const ColourTriangle& triangle : triangles)
       for (std::size_t i = 0; i < 3; ++i)
         beside_[edge_of(triangle.corners[i], triangle.corners[(i + 1) % 3])].push_back(&triangle);
@@ -83,10 +87,71 @@ class Steps {
   double largest_ = 0.0;
 };
 
+// Edges on a line, in its order: `from` is the end that is further left, or higher.
+struct OnLine {
+  std::array<std::int64_t, 3> line{};  // least whole numbers of its direction; its cross product with any point
+  std::int64_t begin = 0, end = 0;     // along it
+  SnappedPoint from, to;
+  double depth_from = 0.0, depth_to = 0.0;
+  const ColourTriangle* triangle = nullptr;
+  bool in_parts = false;  // somebody else's corner lies inside
+
+  double depth(std::int64_t at) const {
+    const double share = static_cast<double>(at - begin) / static_cast<double>(end - begin);
+    return depth_from + share * (depth_to - depth_from);
+  }
+  // Of one surface, not of two that one sees behind each other.
+  bool is_as_deep(const OnLine& other, std::int64_t low, std::int64_t high) const {
+    constexpr double kSame = 1.0;  // unit of the depth word
+    return std::fabs(depth(low) - other.depth(low)) < kSame && std::fabs(depth(high) - other.depth(high)) < kSame;
+  }
+};
+
+OnLine on_line(const ColourTriangle& triangle, std::size_t first, std::size_t second) {
+  if (std::tie(triangle.corners[second].x, triangle.corners[second].y) <
+      std::tie(triangle.corners[first].x, triangle.corners[first].y))
+    std::swap(first, second);
+  const SnappedPoint &p = triangle.corners[first], &q = triangle.corners[second];
+  const std::int64_t divisor = std::max<std::int64_t>(std::gcd(q.x - p.x, q.y - p.y), 1);
+  const std::int64_t dx = (q.x - p.x) / divisor, dy = (q.y - p.y) / divisor;
+  const bool level = dx != 0;
+  return {{dx, dy, dx * p.y - dy * p.x}, level ? p.x : p.y,      level ? q.x : q.y, p,    q,
+          triangle.depth[first],         triangle.depth[second], &triangle,         false};
+}
+
+// Corners of parts are exactly on the edges: what overlaps on a line, and is not the same, is compared where it does.
+ColourSteps exact_steps(std::span<const ColourTriangle> triangles) {
+  std::vector<OnLine> edges;
+  edges.reserve(3 * triangles.size());
+  for (const ColourTriangle& triangle : triangles)
+    for (std::size_t i = 0; i < 3; ++i) edges.push_back(on_line(triangle, i, (i + 1) % 3));
+  std::sort(edges.begin(), edges.end(), [](const OnLine& a, const OnLine& b) {
+    return std::tie(a.line, a.begin, a.end, a.triangle) < std::tie(b.line, b.begin, b.end, b.triangle);
+  });
+  ColourSteps result;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    OnLine& one = edges[i];
+    for (std::size_t j = i + 1; j < edges.size() && edges[j].line == one.line && edges[j].begin < one.end; ++j) {
+      OnLine& other = edges[j];
+      if (other.begin == one.begin && other.end == one.end) continue;
+      if (!one.is_as_deep(other, other.begin, std::min(one.end, other.end))) continue;
+      // It begins no earlier.
+      one.in_parts = one.in_parts || other.begin > one.begin || other.end < one.end;
+      other.in_parts = other.in_parts || one.end < other.end;
+      const SnappedPoint& to = one.end < other.end ? one.to : other.to;
+      result.largest_levels =
+          std::max(result.largest_levels, step_along(*one.triangle, *other.triangle, other.from, to));
+    }
+    result.edges += one.in_parts ? 1 : 0;
+  }
+  return result;
+}
+
 }  // namespace
 
 ColourSteps colour_steps(std::span<const ColourTriangle> triangles, int moved_bits) {
-  Steps steps(triangles, moved_bits);
+  if (moved_bits == 0) return exact_steps(triangles);
+  MovedSteps steps(triangles, moved_bits);
   ColourSteps result;
   for (const ColourTriangle& triangle : triangles)
     for (std::size_t i = 0; i < 3; ++i)

@@ -82,6 +82,9 @@ void SetUpParameters::declare_adaptive(parameter::Table& table) {
       About{"", "Relative error of light in the middle of an edge above which it is cut there.", kHost, kCentred});
   table.integer("subdivision.depth_limit", depth_limit, {0, 6},
                 About{"levels", "How often a triangle, or an edge, may be cut.", kHost, kDivided});
+  table.boolean("subdivision.stitch", stitch,
+                About{"", "Triangles get the corners that those beside them have on common edges: no step of colour.",
+                      kHost, kDivided});
 }
 
 void SetUpParameters::check_method(const std::string& platform, const std::string& file,

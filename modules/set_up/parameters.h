@@ -40,6 +40,7 @@ struct SetUpParameters {
   double area_pixels = 32.0;     // regular subdivision goes on above it
   double intensity_error = 0.3;  // relative: highlight subdivision puts a vertex on an edge above it
   std::int64_t depth_limit = 6;  // of subdivision
+  bool stitch = false;           // corners on edges are given to what lies beside them
   std::int64_t halvings = 2;     // pseudo-Phong: of every edge
 
   // Paths "set_up.method" ..., "highlight_test.threshold_levels" ..., "subdivision.coverage", "pseudo_phong.depth"
@@ -56,6 +57,8 @@ struct SetUpParameters {
   bool subdivides() const {
     return method == ShadingMethod::regular_subdivision || method == ShadingMethod::highlight_subdivision;
   }
+  // Triangles get the corners that those beside them have on common edges.
+  bool stitches() const { return stitch && subdivides(); }
   // Triangles are told apart before any is drawn.
   bool classifies() const { return subdivides() || method == ShadingMethod::gouraud_phong; }
   // Some triangles' pixels, or all, are shaded one by one: the machine has a pixel unit.

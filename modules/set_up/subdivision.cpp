@@ -27,6 +27,7 @@ SubdivisionCounts& SubdivisionCounts::operator+=(const SubdivisionCounts& other)
   unfound += other.unfound;
   inserted += other.inserted;
   at_limit += other.at_limit;
+  at_grid_limit += other.at_grid_limit;
   return *this;
 }
 
@@ -130,6 +131,7 @@ void Subdivision::for_lights_from(std::size_t light, const Part& part, std::uint
     }
     if (part.spare_bits < kEdgeBits) {
       ++counts_.at_limit;
+      ++counts_.at_grid_limit;
       continue;
     }
     const double least = std::min({found->centre[0].value(), found->centre[1].value(), found->centre[2].value()});
@@ -211,6 +213,7 @@ void Subdivision::along_edges(std::size_t light, Part part, std::uint32_t materi
   for (std::int64_t depth = 0; !first_done || !second_done; ++depth) {
     if (depth >= parameters_.depth_limit || part.spare_bits < 1) {
       ++counts_.at_limit;
+      counts_.at_grid_limit += depth < parameters_.depth_limit ? 1 : 0;
       break;
     }
     auto& [bright, a, b] = part.corners;

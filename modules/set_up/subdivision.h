@@ -28,13 +28,14 @@ inline SurfacePoint<geometry::Counted<double>> surface_point(const LitPoint& poi
 }
 
 struct SubdivisionCounts {
-  std::uint64_t divided = 0;   // triangles of which there are several parts now
-  std::uint64_t parts = 0;     // of these
-  std::uint64_t centres = 0;   // of highlights found inside, a light
-  std::uint64_t beside = 0;    // found outside: a corner is put on the edge that is nearest
-  std::uint64_t unfound = 0;   // the search had no answer: not divided
-  std::uint64_t inserted = 0;  // corners on edges, because the light is too far from linear there
-  std::uint64_t at_limit = 0;  // not divided further, although it ought to be
+  std::uint64_t divided = 0;        // triangles of which there are several parts now
+  std::uint64_t parts = 0;          // of these
+  std::uint64_t centres = 0;        // of highlights found inside, a light
+  std::uint64_t beside = 0;         // found outside: a corner is put on the edge that is nearest
+  std::uint64_t unfound = 0;        // the search had no answer: not divided
+  std::uint64_t inserted = 0;       // corners on edges, because the light is too far from linear there
+  std::uint64_t at_limit = 0;       // not divided further, although it may have to be
+  std::uint64_t at_grid_limit = 0;  // of them, because the grid of corners is not finer
   SubdivisionCounts& operator+=(const SubdivisionCounts& other);
 };
 

@@ -91,6 +91,7 @@ TriangleColourer::TriangleColourer(const SetUpParameters& parameters, PointLight
       lighting_(lighting),
       subdivision_(parameters, lighting),
       midpoints_(parameters.halvings, lighting),
+      stitching_(lighting),
       solve_cost_(cost_of_solving(parameters)) {
   facing_cost_.integer = 6;
   facing_cost_.integer_multiply = 2;
@@ -104,6 +105,7 @@ geometry::OperationCounts TriangleColourer::operations() const {
   all += lighting_.operations();
   all += subdivision_.operations();
   all += midpoints_.operations();
+  all += stitching_.operations();
   return all;
 }
 
@@ -115,31 +117,73 @@ TriangleColourer::Knot TriangleColourer::between(const Knot& a, const Knot& b, s
   return knot_of(lighting_.middle(a.point, b.point), material);
 }
 
-void TriangleColourer::colour(const ColourRequest& request, std::vector<ColourTriangle>& out) {
+void TriangleColourer::begin_frame() {
+  cuts_.clear();
+  stitching_.begin_frame();
+}
+
+// Not counted here: it is coloured later.
+void TriangleColourer::cut(const ColourRequest& request) {
+  const ColourCounts before = counts_;
+  bool turned = false;
+  const bool dropped = is_dropped(request, turned);
+  counts_ = before;
+  if (dropped) return;
+  stitching_.note(cuts_[request.object].emplace_back(cut_up(request, turned)));
+}
+
+bool TriangleColourer::is_dropped(const ColourRequest& request, bool& turned) {
   operations_ += facing_cost_;
-  std::array<SnappedPoint, 3> at;
-  for (std::size_t i = 0; i < 3; ++i) at[i] = request.corners[i].at;
-  const std::int64_t area = doubled_area(at);
+  const std::int64_t area = geometry::doubled_area(request.corners[0].at, request.corners[1].at, request.corners[2].at);
   if (area == 0) {
     ++counts_.degenerate;
-    return;
+    return true;
   }
-  const bool turned = !geometry::faces_viewer(area);
-  if (turned && !request.two_sided) {
-    ++counts_.back_faces;
-    return;
-  }
+  turned = !geometry::faces_viewer(area);
+  if (!turned || request.two_sided) return false;
+  ++counts_.back_faces;
+  return true;
+}
+
+void TriangleColourer::colour(const ColourRequest& request, std::vector<ColourTriangle>& out) {
+  bool turned = false;
+  if (is_dropped(request, turned)) return;
   if (request.by_pixels) {
     begin_triangle(request, request.depth, out);
-    out.back().corners = at;
+    for (std::size_t i = 0; i < 3; ++i) out.back().corners[i] = request.corners[i].at;
     ++counts_.drawn;
     return;
   }
-  light_knots(request, turned, knots_);
+  if (parameters_.stitches()) return draw_stitched(request, turned, out);
   const bool cut = parameters_.subdivides() ? request.highlighted : parameters_.method == ShadingMethod::pseudo_phong;
-  if (cut) return draw_parts(request, knots_, out);
+  if (cut) return draw_parts(request, cut_up(request, turned).parts, out);
+  light_knots(request, turned, knots_);
   begin_triangle(request, request.depth, out);
   split_or_draw(knots_, 0, out);
+}
+
+// Pieces of a triangle are told apart by their corners.
+CutTriangle* TriangleColourer::find_cut(const ColourRequest& request) {
+  const auto of_triangle = cuts_.find(request.object);
+  if (of_triangle == cuts_.end()) return nullptr;
+  for (CutTriangle& piece : of_triangle->second) {
+    bool same = true;
+    for (std::size_t i = 0; i < 3; ++i) same = same && piece.whole[i].point.at == request.corners[i].at;
+    if (same) return &piece;
+  }
+  return nullptr;
+}
+
+void TriangleColourer::draw_stitched(const ColourRequest& request, bool turned, std::vector<ColourTriangle>& out) {
+  CutTriangle whole;
+  CutTriangle* cut = find_cut(request);
+  if (cut == nullptr) {
+    whole = lit_whole(request, turned);
+    whole.parts.push_back(whole.whole);
+    cut = &whole;
+  }
+  stitching_.stitch(*cut);
+  draw_parts(request, cut->parts, out);
 }
 
 void TriangleColourer::begin_triangle(const ColourRequest& request, const std::array<double, 3>& depth,
@@ -151,20 +195,32 @@ void TriangleColourer::begin_triangle(const ColourRequest& request, const std::a
   triangle.depth = depth;
 }
 
-void TriangleColourer::draw_parts(const ColourRequest& request, const Knots& knots, std::vector<ColourTriangle>& out) {
-  LitTriangle whole;
-  for (std::size_t i = 0; i < 3; ++i) whole[i] = {knots.point[i], knots.levels[i], request.depth[i]};
-  parts_.clear();
+// Of which nothing is cut yet.
+CutTriangle TriangleColourer::lit_whole(const ColourRequest& request, bool turned) {
+  light_knots(request, turned, knots_);
+  CutTriangle cut;
+  cut.material = request.material;
+  for (std::size_t i = 0; i < 3; ++i) cut.whole[i] = {knots_.point[i], knots_.levels[i], request.depth[i]};
+  return cut;
+}
+
+CutTriangle TriangleColourer::cut_up(const ColourRequest& request, bool turned) {
+  CutTriangle cut = lit_whole(request, turned);
   if (parameters_.method == ShadingMethod::pseudo_phong) {
-    midpoints_.cut(whole, request.material, parts_);
-    counts_.splits += (parts_.size() - 1) / 3;
+    midpoints_.cut(cut.whole, request.material, cut.parts);
+    counts_.splits += (cut.parts.size() - 1) / 3;
   } else if (parameters_.method == ShadingMethod::regular_subdivision) {
-    subdivision_.regular(whole, request.material, parts_);
+    subdivision_.regular(cut.whole, request.material, cut.parts);
   } else {
-    subdivision_.highlight(whole, request.material, parts_);
+    subdivision_.highlight(cut.whole, request.material, cut.parts);
   }
+  return cut;
+}
+
+void TriangleColourer::draw_parts(const ColourRequest& request, const std::vector<LitTriangle>& parts,
+                                  std::vector<ColourTriangle>& out) {
   Knots of_part;
-  for (const LitTriangle& part : parts_) {
+  for (const LitTriangle& part : parts) {
     for (std::size_t i = 0; i < 3; ++i) {
       of_part.point[i] = part[i].point;
       of_part.levels[i] = part[i].levels;

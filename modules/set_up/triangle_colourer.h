@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "modules/set_up/midpoint_grid.h"
 #include "modules/set_up/parameters.h"
 #include "modules/set_up/point_lighting.h"
 #include "modules/set_up/span_load.h"
+#include "modules/set_up/stitching.h"
 #include "modules/set_up/subdivision.h"
 
 namespace rastertlm::set_up {
@@ -42,11 +44,17 @@ class TriangleColourer {
   // `lighting` outlives it.
   TriangleColourer(const SetUpParameters& parameters, PointLighting& lighting);
 
+  // Where the machine stitches, before any triangle of a frame is coloured: what may hold a highlight is cut up, so
+  // that what lies beside it is known. What was cut is not cut again.
+  void begin_frame();
+  void cut(const ColourRequest& request);
+
   // Appends what is to be drawn, nothing where the triangle is dropped.
   void colour(const ColourRequest& request, std::vector<ColourTriangle>& out);
 
   const ColourCounts& counts() const { return counts_; }
   const SubdivisionCounts& subdivision() const { return subdivision_.counts(); }
+  const StitchCounts& stitched() const { return stitching_.counts(); }
   // Operations since the start of the run, light included.
   geometry::OperationCounts operations() const;
 
@@ -67,7 +75,13 @@ class TriangleColourer {
 
   void begin_triangle(const ColourRequest& request, const std::array<double, 3>& depth,
                       std::vector<ColourTriangle>& out) const;
-  void draw_parts(const ColourRequest& request, const Knots& knots, std::vector<ColourTriangle>& out);
+  bool is_dropped(const ColourRequest& request, bool& turned);
+  CutTriangle lit_whole(const ColourRequest& request, bool turned);
+  CutTriangle cut_up(const ColourRequest& request, bool turned);
+  CutTriangle* find_cut(const ColourRequest& request);
+  void draw_stitched(const ColourRequest& request, bool turned, std::vector<ColourTriangle>& out);
+  void draw_parts(const ColourRequest& request, const std::vector<LitTriangle>& parts,
+                  std::vector<ColourTriangle>& out);
   void light_knots(const ColourRequest& request, bool turned, Knots& knots);
   Knot knot_of(const LitPoint& point, std::uint32_t material);
   Knot between(const Knot& a, const Knot& b, std::uint32_t material);
@@ -89,13 +103,14 @@ class TriangleColourer {
   PointLighting& lighting_;
   Subdivision subdivision_;
   MidpointGrid midpoints_;
+  Stitching stitching_;
+  std::unordered_map<std::uint32_t, std::vector<CutTriangle>> cuts_;  // of a frame, by the scene's triangle
   ColourCounts counts_;
   geometry::OperationCounts operations_;
   geometry::OperationCounts solve_cost_;  // three channels
   geometry::OperationCounts facing_cost_;
   geometry::OperationCounts test_cost_;  // one point, without its light
   Knots knots_;                          // of the last triangle that was given
-  std::vector<LitTriangle> parts_;       // of it, where it is cut up
 };
 
 }  // namespace rastertlm::set_up

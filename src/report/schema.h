@@ -268,8 +268,14 @@ void visit_highlight(Visitor& v, run::HighlightFigures& h) {
   v.value("highlight_centres", {"centres", kCount, "found inside a triangle, a light"}, h.centres);
   v.value("highlights_beside", {"centres", kCount, "found outside: a corner is put on the nearest edge"}, h.beside);
   v.value("highlights_unfound", {"triangles", kCount, "where the search had no answer"}, h.unfound);
-  v.value("parts_at_limit", {"triangles", kCount, "not cut further, although larger or further off than the threshold"},
+  v.value("parts_at_limit",
+          {"triangles", kCount, "not cut further, although larger or further off than the threshold, or not looked at"},
           h.at_limit);
+  v.value("parts_at_grid_limit",
+          {"triangles", kCount, "of them, those that the grid of corners is not fine enough for"}, h.at_grid_limit);
+  v.value("stitched", {"triangles", kCount, "that got corners from those beside them; not among the parts"},
+          h.stitched);
+  v.value("stitch_corners", {"corners", kCount, "that they got: as many more are drawn"}, h.stitch_corners);
   v.value("true_highlight_centres",
           {"centres", kCount, "found by a search of every triangle, a light; needs references"}, h.true_centres);
   v.metric("highlight_recall",

@@ -256,6 +256,7 @@ std::vector<std::string> quadratic_warnings(const Quadratic& platform, std::uint
     const host::SetUpCounts& counts = platform.frames()[frame].set_up.counts;
     all.colour += counts.colour;
     all.lighting += counts.lighting;
+    all.subdivision += counts.subdivision;
     all.wraps += counts.wraps;
   }
   const auto tell = [&](std::uint64_t count, const char* what) {
@@ -267,6 +268,13 @@ std::vector<std::string> quadratic_warnings(const Quadratic& platform, std::uint
        platform.machine().set_up.test_points == set_up::TestPoints::h1h2
            ? "triangles are split no further, and may hold a highlight's centre (highlight_test.depth_limit)"
            : "triangles are split no further, and off by more than highlight_test.threshold_levels");
+  const set_up::SubdivisionCounts& cut = all.subdivision;
+  tell(cut.at_limit - cut.at_grid_limit, "triangles are cut no further than subdivision.depth_limit says");
+  tell(cut.at_grid_limit,
+       "triangles are cut no further: highlight subdivision has 16 fraction bits for corners, set_up.snap_bits of them "
+       "for those of triangles");
+  tell(cut.unfound,
+       "triangles may hold a highlight's centre, and the search for it has no answer: they are not cut there");
   tell(all.wraps, "triangles have slopes that the registers do not hold as signed numbers: prestep shows other pixels");
   tell(all.lighting.clamped_knots, "colours at points are beyond the levels and clamped");
   tell(all.lighting.not_finite, "colours at points are no numbers and taken as black");

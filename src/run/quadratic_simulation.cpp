@@ -79,6 +79,9 @@ FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown
                  cut.beside,
                  cut.unfound,
                  cut.at_limit,
+                 cut.at_grid_limit,
+                 counts.stitched.triangles,
+                 counts.stitched.corners,
                  0,
                  {},
                  {}};

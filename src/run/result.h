@@ -167,7 +167,10 @@ struct HighlightFigures {
   std::uint64_t centres = 0;      // found inside, a light
   std::uint64_t beside = 0;       // found outside
   std::uint64_t unfound = 0;
-  std::uint64_t at_limit = 0;  // not cut further, and larger or further off than the threshold
+  std::uint64_t at_limit = 0;  // not cut further, and larger or further off than the threshold, or not known to be less
+  std::uint64_t at_grid_limit = 0;  // of them, because the grid of corners is not finer
+  std::uint64_t stitched = 0;       // triangles that got corners from those beside them
+  std::uint64_t stitch_corners = 0;
   // Against a search of every triangle, a light; where references are made.
   std::uint64_t true_centres = 0;
   std::optional<double> recall;     // share of them in triangles that may hold one; none: there is none

@@ -55,5 +55,42 @@ TEST(ColourSteps, AreFoundAlongQuarters) {
   EXPECT_DOUBLE_EQ(steps.largest_levels, 7.0);
 }
 
+// At other places on both sides: every piece that two have in common is compared.
+TEST(ColourSteps, AreFoundWhereBothSidesHaveOtherParts) {
+  const geometry::SnappedPoint third{210, 0}, fifth{510, 0};
+  const std::vector<ColourTriangle> triangles{triangle({kA, third, kDown}, 100), triangle({third, kB, kDown}, 90),
+                                              triangle({kA, kUp, fifth}, 101), triangle({fifth, kUp, kB}, 86)};
+  const ColourSteps steps = colour_steps(triangles);
+  EXPECT_EQ(steps.edges, 2U);
+  EXPECT_DOUBLE_EQ(steps.largest_levels, 11.0);
+}
+
+// The same line further on, and one beside it, are no part of the edge.
+TEST(ColourSteps, AreNotOfOtherEdgesOnTheLine) {
+  const geometry::SnappedPoint further{800, 0}, end{960, 0}, beside{0, 16}, beside_end{320, 16};
+  EXPECT_EQ(colour_steps(std::vector<ColourTriangle>{triangle({kA, kB, kDown}, 100), triangle({kB, kUp, further}, 50),
+                                                     triangle({further, end, kUp}, 20),
+                                                     triangle({beside, beside_end, kUp}, 70)})
+                .edges,
+            0U);
+}
+
+// A surface that is seen behind the other has nothing to do with it.
+TEST(ColourSteps, AreNotOfSurfacesBehindEachOther) {
+  std::vector<ColourTriangle> triangles{triangle({kA, kB, kDown}, 100), triangle({kA, kUp, kMiddle}, 103)};
+  EXPECT_EQ(colour_steps(triangles).edges, 1U);
+  triangles[1].depth = {500.0, 500.0, 500.0};
+  EXPECT_EQ(colour_steps(triangles).edges, 0U);
+}
+
+// Vertical lines run downwards.
+TEST(ColourSteps, AreFoundAlongAVerticalEdge) {
+  const geometry::SnappedPoint top{0, 0}, low{0, 640}, part_way{0, 111}, left{-300, 200}, right{300, 200};
+  const ColourSteps steps = colour_steps(std::vector<ColourTriangle>{
+      triangle({top, low, left}, 100), triangle({low, part_way, right}, 96), triangle({part_way, top, right}, 103)});
+  EXPECT_EQ(steps.edges, 1U);
+  EXPECT_DOUBLE_EQ(steps.largest_levels, 4.0);
+}
+
 }  // namespace
 }  // namespace rastertlm::set_up::test

@@ -100,6 +100,7 @@ std::map<std::string, Change> adaptive_changes() {
   changes["subdivision.area_pixels"] = {{}, cut};
   changes["subdivision.intensity_error"] = {at_highlights, {"subdivision.intensity_error=0.001"}};
   changes["subdivision.depth_limit"] = {cut, {"subdivision.depth_limit=0"}};
+  changes["subdivision.stitch"] = {cut, {"subdivision.stitch=true"}};
   for (const char* path : {"clock_ns", "cycles_per_pixel", "latency_cycles", "cycles_per_line", "load_cycles"}) {
     const std::string key = std::string("pixel_unit.") + path;
     changes[key] = {{"set_up.method=phong"}, {key + (key.ends_with("ns") ? "=62.5" : "=40")}};
