@@ -65,6 +65,10 @@ TEST(ComparisonFigures, LightAtEveryPixelIsTheExactPicture) {
   EXPECT_GT(gouraud.rmse_level, 5.0 * phong.rmse_level);
   EXPECT_GT(gouraud.over_one_level_percent, 10.0 * phong.over_one_level_percent);
   EXPECT_LT(gouraud.psnr_db.value() + 14.0, phong.psnr_db.value());
+  // What is left is the grid of the corners; and beside it, rounding.
+  const reference::ErrorFigures fine = error_of(frame_of("phong", {"set_up.snap_bits=8"}), "ideal");
+  EXPECT_LT(fine.rmse_level, 0.2);
+  EXPECT_LT(fine.over_one_level_percent, 0.1);
 }
 
 }  // namespace
