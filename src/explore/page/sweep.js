@@ -86,7 +86,7 @@ const groups = [
   {label: 'baseline', ...(hasCurves ? ring(colours.baseline, 2) : {colour: colours.baseline}), radius: hasCurves ? 10 : 8, order: 1, style: 'triangle', has: isBaseline},
 ];
 
-const curveColours = ['#6b7280', '#8b5fbf', '#8fbde8', '#2563a8', '#12365f', '#d97706', '#2f855a', '#c2410c', '#a08a00', '#d64b8a', '#b91c1c', '#0f8b8d'];
+const curveColours = ['#6b7280', '#8b5fbf', '#c084d8', '#8fbde8', '#2563a8', '#0f8b8d', '#12365f', '#d97706', '#2f855a', '#c2410c', '#a08a00', '#d64b8a', '#b91c1c'];
 const curveStyles = ['circle', 'rect', 'triangle', 'rectRot', 'star', 'crossRot'];
 
 // Which curve a point is of: by its curve where the axis has any, else by its value, which is told where several are shown.
