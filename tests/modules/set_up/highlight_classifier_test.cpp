@@ -95,6 +95,61 @@ TEST_F(HighlightTest, NeverMissesACentreOfLinearNormals) {
   EXPECT_LT(passed, 20000 * 3 / 4);  // it does tell them apart
 }
 
+// The largest cosine between the normal, linear on the triangle, and a direction: looked for everywhere on a grid, then
+// ever nearer about the best point. Nothing but the angle is asked for.
+struct Nearest {
+  double cosine = -1.0;
+  glm::dvec3 weights{0.0};
+};
+Nearest nearest_normal(const std::array<glm::dvec3, 3>& n, const glm::dvec3& direction) {
+  constexpr int kGrid = 24, kTurns = 60;
+  Nearest best;
+  const auto look = [&](double v, double w) {
+    if (v < 0 || w < 0 || v + w > 1) return;
+    const glm::dvec3 normal = (1 - v - w) * n[0] + v * n[1] + w * n[2];
+    const double cosine = glm::dot(normal, direction) / glm::length(normal);
+    if (cosine > best.cosine) best = {cosine, {1 - v - w, v, w}};
+  };
+  for (int i = 0; i <= kGrid; ++i)
+    for (int j = 0; i + j <= kGrid; ++j) look(static_cast<double>(i) / kGrid, static_cast<double>(j) / kGrid);
+  double step = 1.0 / kGrid;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const glm::dvec3 at = best.weights;
+    const double before = best.cosine;
+    for (int i = -2; i <= 2; ++i)
+      for (int j = -2; j <= 2; ++j) look(at.y + i * step * 0.5, at.z + j * step * 0.5);
+    if (best.cosine <= before) step *= 0.5;
+  }
+  return best;
+}
+
+// Recall is 1 where light and viewer are infinitely far: normals of any length and direction, whole spheres of them, on
+// random triangles against that search.
+TEST_F(HighlightTest, NeverMissesWhatASearchOfEveryPointFinds) {
+  int centres = 0, passed = 0;
+  constexpr int kRounds = 6000;
+  for (int round = 0; round < kRounds; ++round) {
+    const HighlightSource s{false, direction() * uniform(0.1, 9.0), false, direction() * uniform(0.1, 9.0)};
+    const glm::dvec3 light = glm::normalize(s.light), viewer = glm::normalize(s.viewer);
+    if (glm::length(light + viewer) < 0.05) continue;
+    const glm::dvec3 halfway = glm::normalize(light + viewer);
+    const double towards = uniform(0.0, 1.5);
+    std::array<glm::dvec3, 3> n;
+    for (auto& normal : n) normal = (direction() + towards * halfway) * uniform(0.05, 20.0);
+    std::array<std::uint8_t, 3> sides{};
+    for (std::size_t i = 0; i < 3; ++i) sides[i] = highlight_sides<double>(s, vector(1.0), n[i]);
+    const bool found = may_be_highlighted(sides[0], sides[1], sides[2]);
+    passed += found ? 1 : 0;
+    constexpr double kCentre = 1e-12;
+    if (nearest_normal(n, halfway).cosine < 1 - kCentre) continue;
+    ++centres;
+    EXPECT_TRUE(found) << "round " << round;
+  }
+  EXPECT_GT(centres, kRounds / 10);
+  EXPECT_GT(passed, centres);
+  EXPECT_LT(passed, kRounds * 3 / 4);
+}
+
 std::size_t marked(const std::vector<Highlighted>& triangles, Highlighted as) {
   return static_cast<std::size_t>(std::count(triangles.begin(), triangles.end(), as));
 }

@@ -176,13 +176,33 @@ TEST_F(ReadySweepTest, RegularSubdivision) {
   EXPECT_NEAR(parts("8.0", "1", "256 x 256"), parts("32.0", "1", "512 x 512"), 0.01 * parts("32.0", "1", "512 x 512"));
 }
 
+// Finer triangles are missed less, and so are those of a lamp that is further away.
+TEST_F(ReadySweepTest, HighlightRecall) {
+  const std::string file = std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps/highlight_recall.toml";
+  const Outcome outcome = run({"explore", "run", file, "--store", "s.sqlite", "--jobs", "2"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const explore::SweepTable found = table();
+  ASSERT_EQ(found.rows.size(), 20U);
+  const auto recall = [&](const char* lamp, const char* sphere) {
+    return figure(found, "mean(images[].highlight_recall)", {lamp, sphere});
+  };
+  EXPECT_EQ(recall("1.0625 radii", "12 x 8"), 0.0);
+  EXPECT_EQ(recall("1.25 radii", "12 x 8"), 0.0);
+  EXPECT_EQ(recall("1.25 radii", "96 x 64"), 1.0);
+  EXPECT_GT(recall("1.0625 radii", "96 x 64"), recall("1.0625 radii", "24 x 16"));
+  EXPECT_GT(recall("2 radii", "12 x 8"), 0.5);
+  for (const char* sphere : {"8 x 5", "12 x 8", "24 x 16", "48 x 32", "96 x 64"})
+    EXPECT_EQ(recall("5 radii", sphere), 1.0) << sphere;
+}
+
 // Nobody adds one without a test above.
 TEST_F(ReadySweepTest, AllAreTested) {
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps"))
     found.insert(entry.path().stem().string());
-  EXPECT_EQ(found, (std::set<std::string>{"loaders", "pipeline_or_tree", "regular_subdivision", "resolutions",
-                                          "shading_methods", "span_units", "transputers", "word_lengths"}));
+  EXPECT_EQ(found,
+            (std::set<std::string>{"highlight_recall", "loaders", "pipeline_or_tree", "regular_subdivision",
+                                   "resolutions", "shading_methods", "span_units", "transputers", "word_lengths"}));
 }
 
 }  // namespace
