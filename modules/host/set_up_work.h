@@ -106,7 +106,7 @@ class SetUpWork {
   set_up::PointLighting lighting_;
   set_up::TriangleColourer colourer_;
   set_up::SpanLoadCosts load_costs_;
-  geometry::OperationCounts inside_cost_;    // a triangle's corners to the screen, none outside the band
+  geometry::OperationCounts inside_cost_;     // a triangle's corners to the screen, none outside the band
   geometry::OperationCounts corner_costs_;    // all three to the grid, and their depth words
   geometry::OperationCounts position_costs_;  // the corners', where lights need them
 

@@ -12,10 +12,10 @@ namespace rastertlm::explore {
 // A parameter that varies: "host.computation_units" of the machine, "scene" for the scene.
 struct Axis {
   std::string path;
-  std::string unit;                 // empty: none
-  std::vector<std::string> values;  // that points have, as in a machine file; in the sweep's order
+  std::string unit;                   // empty: none
+  std::vector<std::string> values;    // that points have, as in a machine file; in the sweep's order
   std::vector<std::string> curves{};  // a value each: of which curve it is a point; empty: the axis has none
-  bool given = false;               // not ours to choose: points are compared only where it is the same
+  bool given = false;                 // not ours to choose: points are compared only where it is the same
 };
 
 enum class Sense { minimise, maximise };
@@ -40,9 +40,9 @@ struct FurtherFigure {
 enum class State { waiting, done, failed };
 
 struct Row {
-  std::uint64_t number = 0;                    // of the point, from 0, in the sweep's order
-  std::vector<std::size_t> values;             // an axis each: which of its values
-  std::vector<std::optional<double>> figures;  // an objective each; none where the report has none, or null
+  std::uint64_t number = 0;                      // of the point, from 0, in the sweep's order
+  std::vector<std::size_t> values;               // an axis each: which of its values
+  std::vector<std::optional<double>> figures;    // an objective each; none where the report has none, or null
   std::vector<std::optional<double>> further{};  // one each of the table's further figures
   State state = State::waiting;
   bool allowed = true;                  // every constraint is met; only such points are on the front
