@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "modules/set_up/highlight_test.h"
@@ -85,11 +86,12 @@ class HighlightSearch {
       : source_(source), corners_(corners) {}
 
   // `refinements`: how often H1 and H2 are met in turns after the first estimate. None where the corners' H1 signs
-  // enclose nothing.
+  // enclose nothing, and where an estimate is so far away that its weights, if they are numbers at all, have lost the
+  // digits by which they add up to 1.
   std::optional<FoundHighlight<T>> find(int refinements) const {
     FoundHighlight<T> found;
     const auto apex = apex_of();
-    if (!apex) return along_halfway();
+    if (!apex) return adding_up(along_halfway());
     found.apex = *apex;
     const std::size_t next = (*apex + 1) % 3, after = (*apex + 2) % 3;
     const auto q = on_edge(*apex, next), r = on_edge(*apex, after);
@@ -109,7 +111,7 @@ class HighlightSearch {
       centre = falsi(one, other);
     }
     found.centre = centre;
-    return found;
+    return adding_up(found);
   }
 
   SurfacePoint<T> point(const std::array<T, 3>& weights) const {
@@ -127,6 +129,15 @@ class HighlightSearch {
     Weights at;
     T measure;
   };
+
+  // A look at what was computed, no operation of it.
+  static std::optional<FoundHighlight<T>> adding_up(const std::optional<FoundHighlight<T>>& found) {
+    constexpr double kOff = 1e-6;
+    double sum = 0.0;
+    if (found)
+      for (const T& weight : found->centre) sum += geometry::plain(weight);
+    return std::fabs(sum - 1.0) <= kOff ? found : std::nullopt;
+  }
 
   static Weights corner(std::size_t i) {
     Weights w{T(0.0), T(0.0), T(0.0)};

@@ -144,11 +144,7 @@ std::optional<FoundHighlight<Subdivision::Number>> Subdivision::search(const Lit
                                                                        const HighlightSource& source) {
   const std::array<SurfacePoint<Number>, 3> surface{surface_point(corners[0].point), surface_point(corners[1].point),
                                                     surface_point(corners[2].point)};
-  const auto found = HighlightSearch<Number>(source, surface).find(static_cast<int>(parameters_.refinements));
-  if (!found) return std::nullopt;
-  for (const Number& weight : found->centre)
-    if (!std::isfinite(weight.value())) return std::nullopt;
-  return found;
+  return HighlightSearch<Number>(source, surface).find(static_cast<int>(parameters_.refinements));
 }
 
 // A new corner at the centre, three parts.

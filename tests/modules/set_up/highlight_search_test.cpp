@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <random>
 
 namespace rastertlm::set_up::test {
@@ -72,6 +74,47 @@ TEST_F(HighlightSearchTest, RootsAreRoots) {
   EXPECT_EQ(roots<double>(0, 2, -1).at[0], 0.5);
   // 1e8 would cancel in the printed formula.
   EXPECT_NEAR(roots<double>(1, -1e8, 1).at[0], 1e-8, 1e-20);
+}
+
+// Whatever is asked: roots that are given are roots, where the numbers hold them at all.
+TEST_F(HighlightSearchTest, RootsOfHardQuadratics) {
+  const double values[] = {0.0, -0.0, 1.0, -3.0, 1e-300, -1e-160, 1e-20, 1e20, -1e150, 1e300};
+  for (const double a : values)
+    for (const double b : values)
+      for (const double c : values) {
+        const auto found = roots<double>(a, b, c);
+        ASSERT_LE(found.count, 2);
+        EXPECT_FALSE(a == 0 && b == 0 && found.count > 0) << c;
+        for (int i = 0; i < found.count; ++i) {
+          const double x = found.at[static_cast<std::size_t>(i)];
+          const double sizes = std::fabs(a * x * x) + std::fabs(b * x) + std::fabs(c);
+          if (!std::isfinite(x) || !std::isfinite(sizes) || sizes < 1e-290 || b * b > 1e300 ||
+              std::fabs(a * c) > 1e300 || (b * b < 1e-290 && std::fabs(a * c) < 1e-290))
+            continue;
+          EXPECT_LE(std::fabs(a * x * x + b * x + c), 1e-12 * sizes) << a << ' ' << b << ' ' << c << ": " << x;
+        }
+      }
+}
+
+// Corners, lights and normals at one place, on a line, or out of measure: no answer, or weights that add up to 1, or
+// such as are no numbers, which Subdivision refuses.
+TEST_F(HighlightSearchTest, HardTrianglesHaveANumberOrNone) {
+  const glm::dvec3 places[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1e-60, 0, 0}, {1e60, -1e60, 3}};
+  const glm::dvec3 normals[] = {{0, 0, 0}, {0, 0, 1}, {0, 0, -1}, {0.3, 0.2, 1}, {1e-60, 0, 1e-60}};
+  int answers = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const auto place = [&] { return places[random_() % std::size(places)]; };
+    const auto normal = [&] { return normals[random_() % std::size(normals)]; };
+    const HighlightSource source{random_() % 2 == 0, place(), random_() % 2 == 0, place()};
+    const Corners corners{{{place(), normal()}, {place(), normal()}, {place(), normal()}}};
+    const auto found = HighlightSearch<double>(source, corners).find(4);
+    if (!found) continue;
+    ++answers;
+    const double sum = found->centre[0] + found->centre[1] + found->centre[2];
+    EXPECT_NEAR(sum, 1.0, 1e-6);
+  }
+  EXPECT_GT(answers, 1000);
+  EXPECT_LT(answers, 15000);
 }
 
 // Directions from infinitely far: H1 and H2 are lines, and the first estimate is the centre.

@@ -196,5 +196,27 @@ TEST_F(SubdivisionTest, LeavesWhatHasNoHighlight) {
   EXPECT_EQ(parts.size(), 1U);
 }
 
+// Light and viewer in one direction, and normals so short that their products vanish.
+TEST_F(SubdivisionTest, HasNoAnswerForNormalsThatNumbersDoNotHold) {
+  SetUpParameters p = parameters(ShadingMethod::highlight_subdivision);
+  PointLighting lighting(p, surfaces(), {});
+  lighting.set_lights({{false, {0, 0, 1}, glm::dvec3(1.0), glm::dvec3(1.0)}}, false);
+  LitTriangle whole = triangle(p, lighting);
+  const glm::dvec3 normals[] = {{-0.3, -0.2, 1}, {0.5, -0.1, 1}, {0.0, 0.6, 1}};
+  for (const double length : {1.0, 1e-50, 1e-200}) {
+    Subdivision subdivision(p, lighting);
+    for (std::size_t i = 0; i < 3; ++i) {
+      whole[i].point.normal = length * normals[i];
+      whole[i].levels = lighting.levels(whole[i].point, 0);
+    }
+    std::vector<LitTriangle> parts;
+    subdivision.highlight(whole, 0, parts);
+    const bool held = length > 1e-100;
+    EXPECT_EQ(subdivision.counts().centres, held ? 1U : 0U) << length;
+    EXPECT_EQ(subdivision.counts().unfound, held ? 0U : 1U) << length;
+    EXPECT_EQ(parts.size() > 1, held) << length;
+  }
+}
+
 }  // namespace
 }  // namespace rastertlm::set_up::test
