@@ -113,12 +113,10 @@ INSTANTIATE_TEST_SUITE_P(All, AdaptiveInputTest,
 class AdaptiveLimitTest : public ProgramTest {
  protected:
   std::string report_of(const std::vector<std::string>& settings) {
-    std::vector<std::string> arguments{"render",
-                                       RASTERTLM_SOURCE_DIR "/configs/machines/adaptive.toml",
-                                       RASTERTLM_SOURCE_DIR "/configs/scenes/teapot_four_lights.toml",
-                                       "--out",
-                                       "o",
-                                       "--no-reference"};
+    const std::string configs = RASTERTLM_SOURCE_DIR "/configs/";
+    std::vector<std::string> arguments{
+        "render",        configs + "machines/adaptive.toml", configs + "scenes/teapot_four_lights.toml", "--out", "o",
+        "--no-reference"};
     for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
