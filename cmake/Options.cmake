@@ -40,6 +40,9 @@ if(RASTERTLM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
+# What is called of libraries is found once, as a program starts: the processes of a sweep inherit it.
+target_link_options(rastertlm_options INTERFACE -Wl,-z,now)
+
 # Kernels that are compiled for several instruction sets and chosen at run time: what their sources may use.
 # Square roots that set no errno are vectors as well. Aligned, a loop costs the same wherever the linker puts it.
 set(RASTERTLM_BASELINE -fno-math-errno -falign-functions=64 -falign-loops=64)

@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <thread>
 
 #include "src/base/errors.h"
 #include "src/explore/figures.h"
@@ -146,19 +147,26 @@ void write_all(int descriptor, const std::string& bytes) {
   }
 }
 
-// What is given back to the system must be had again page by page; a worker that is gone soon keeps it.
-void keep_memory() {
+// For a thread that has not asked for memory yet: it gets a heap of its own. What is given back to the system must be
+// had again page by page; a worker that is gone soon keeps it.
+//
+// Returns what is never freed and never touched, so that what comes next begins with the first large page.
+void* keep_memory() {
   constexpr int kLarge = 1 << 30;
   ::mallopt(M_MMAP_THRESHOLD, kLarge);
   ::mallopt(M_TRIM_THRESHOLD, kLarge);
   // Large pages, where the system gives them: a worker would come to most of its time by small ones.
-  constexpr std::size_t kPage = std::size_t{2} << 20, kArena = 8 * kPage;
-  if (void* const arena = std::malloc(kArena + kPage)) {
-    void* begin = arena;
-    std::size_t room = kArena + kPage;
-    if (std::align(kPage, kArena, begin, room) != nullptr) ::madvise(begin, kArena, MADV_HUGEPAGE);
-    std::free(arena);
-  }
+  constexpr std::size_t kPage = std::size_t{2} << 20, kArena = 8 * kPage, kHeader = 64;
+  void* const block = std::malloc(kArena + kPage);
+  if (block == nullptr) return nullptr;
+  void* begin = block;
+  std::size_t room = kArena + kPage;
+  const bool found = std::align(kPage, kArena, begin, room) != nullptr;
+  if (found) ::madvise(begin, kArena, MADV_HUGEPAGE);
+  const std::size_t before = kArena + kPage - room;
+  if (found && before > kHeader) return std::realloc(block, before - kHeader);
+  std::free(block);
+  return nullptr;
 }
 
 // The worker's life. It ends with who forked it; interrupts are for that one, who then ends it.
@@ -172,12 +180,16 @@ void keep_memory() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  keep_memory();
   if (printed >= 0) {
     ::dup2(printed, STDOUT_FILENO);
     ::dup2(printed, STDERR_FILENO);
   }
-  write_all(pipe, message_of(work));
+  std::string message;
+  std::thread([&] {
+    [[maybe_unused]] const void* const held = keep_memory();
+    message = message_of(work);
+  }).join();
+  write_all(pipe, message);
   ::_exit(0);
 }
 
