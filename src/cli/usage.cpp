@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "src/base/errors.h"
+#include "src/reference/flip.h"
 
 namespace rastertlm::cli {
 namespace {
@@ -105,6 +106,14 @@ std::string dotted_range(const std::string& text) {
   if (first <= last) return {};
   return fmt::format("'{}' is not A..B, two whole numbers of which the first is not above the second, nor one number",
                      text);
+}
+
+std::string pixels_a_degree(const std::string& text) {
+  double number = 0.0;
+  if (reads_as(text, number) && number >= reference::kLeastPixelsPerDegree && number <= reference::kMostPixelsPerDegree)
+    return {};
+  return fmt::format("'{}' is not a number from {:.6g} to {:.6g}", text, reference::kLeastPixelsPerDegree,
+                     reference::kMostPixelsPerDegree);
 }
 
 std::string not_empty(const std::string& text) { return text.empty() ? "it is empty" : ""; }

@@ -23,6 +23,7 @@ std::string frame_number(const std::string& text);  // 0 .. one less than whole_
 std::string field_number(const std::string& text);  // 0 or 1
 std::string whole_range(const std::string& text);   // FROM-TO
 std::string not_empty(const std::string& text);
+std::string pixels_a_degree(const std::string& text);  // what FLIP can be had at
 
 std::string dotted_range(const std::string& text);  // A..B, or A alone
 

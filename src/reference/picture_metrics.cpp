@@ -109,9 +109,9 @@ PerceptualFigures compare_as_seen(std::size_t columns, std::size_t lines, std::s
   figures.flip = flip_map(columns, lines, shown_first, shown_second, pixels_per_degree);
   figures.flip_mean = mean(figures.flip);
   figures.flip_p95 = percentile(figures.flip, 95.0);
-  const std::vector<double> differences = ciede2000_map(shown_first, shown_second);
-  figures.ciede2000_mean = mean(differences);
-  figures.ciede2000_p99 = percentile(differences, 99.0);
+  figures.ciede2000 = ciede2000_map(shown_first, shown_second);
+  figures.ciede2000_mean = mean(figures.ciede2000);
+  figures.ciede2000_p99 = percentile(figures.ciede2000, 99.0);
   return figures;
 }
 

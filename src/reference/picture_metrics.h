@@ -32,7 +32,8 @@ struct PerceptualFigures {
   double flip_p95 = 0.0;
   double ciede2000_mean = 0.0;  // 1: just seen
   double ciede2000_p99 = 0.0;
-  std::vector<double> flip;  // of each pixel
+  std::vector<double> flip;       // of each pixel
+  std::vector<double> ciede2000;  // likewise
 };
 
 // The same pixels as sRGB, levels outside 0..255 as the nearest within. The first picture is FLIP's reference, though
