@@ -15,26 +15,38 @@ void require_same_size(const frame::Frame& shown, const frame::ExactFrame& exact
     throw std::invalid_argument("pictures of different sizes are compared");
 }
 
-struct Sums {
-  std::uint64_t squares = 0;
-  double unrounded_squares = 0.0;
-  std::uint64_t over_one = 0;
+constexpr double kHalfLevel = 0.5;
+
+// Of the channels of a pixel.
+struct PixelError {
+  int largest = 0;
+  int squares = 0;
+  double unrounded_squares[3] = {};
 };
 
-// The largest |difference| of the pixel's channels.
-int add_pixel(const frame::Frame& shown, const frame::ExactFrame& exact, std::size_t pixel, Sums& sums) {
-  int largest = 0;
-  for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
-    const int level = shown.rgb[i];
-    const int difference = std::abs(level - static_cast<int>(std::floor(exact.rgb[i] + 0.5)));
-    const double unrounded = level - exact.rgb[i];
-    largest = std::max(largest, difference);
-    sums.squares += static_cast<std::uint64_t>(difference) * static_cast<std::uint64_t>(difference);
-    sums.unrounded_squares += unrounded * unrounded;
+PixelError error_of(const std::uint8_t* levels, const double* exact) {
+  PixelError error;
+  for (int c = 0; c < 3; ++c) {
+    // Exact levels are not negative: cutting off is floor, which processors without SSE4.1 would have to call.
+    const int difference = std::abs(levels[c] - static_cast<int>(exact[c] + kHalfLevel));
+    const double unrounded = levels[c] - exact[c];
+    error.largest = std::max(error.largest, difference);
+    error.squares += difference * difference;
+    error.unrounded_squares[c] = unrounded * unrounded;
   }
-  if (largest > 1) ++sums.over_one;
-  return largest;
+  return error;
 }
+
+struct Sums {
+  std::uint64_t squares = 0;
+  double unrounded_squares[3] = {};  // of each channel: three sums that need not wait for each other
+  std::uint64_t over_one = 0;
+  void add(const PixelError& error) {
+    squares += static_cast<std::uint64_t>(error.squares);
+    for (int c = 0; c < 3; ++c) unrounded_squares[c] += error.unrounded_squares[c];
+    over_one += error.largest > 1 ? 1 : 0;
+  }
+};
 
 // None where it is infinite.
 std::optional<double> psnr(std::uint64_t squares, std::uint64_t pixels) {
@@ -50,31 +62,35 @@ ErrorFigures compare(const frame::Frame& shown, const frame::ExactFrame& exact, 
   ErrorFigures figures;
   figures.reference = reference;
   Sums sums;
-  Sums outline;  // of pixels that one picture alone covers
+  std::uint64_t outline = 0;  // squares of pixels that one picture alone covers
+  const std::uint8_t* levels = shown.rgb.data();
+  const double* wanted = exact.rgb.data();
   for (std::size_t pixel = 0; pixel < exact.pixels(); ++pixel) {
     const bool in_shown = shown.object[pixel] != 0;
     const bool in_exact = exact.object[pixel] != 0;
     figures.covered_missing += !in_shown && in_exact ? 1 : 0;
     figures.covered_extra += in_shown && !in_exact ? 1 : 0;
     if (!in_shown && !in_exact) continue;
+    const PixelError error = error_of(levels + 3 * pixel, wanted + 3 * pixel);
     if (!in_shown || !in_exact) {
-      add_pixel(shown, exact, pixel, outline);
+      outline += static_cast<std::uint64_t>(error.squares);
       continue;
     }
     ++figures.compared;
-    const int largest = add_pixel(shown, exact, pixel, sums);
-    figures.max_level = std::max(figures.max_level, largest);
+    sums.add(error);
+    figures.max_level = std::max(figures.max_level, error.largest);
     if (shown.object[pixel] == exact.object[pixel])
-      figures.max_level_same_object = std::max(figures.max_level_same_object, largest);
+      figures.max_level_same_object = std::max(figures.max_level_same_object, error.largest);
     else
       ++figures.wrong_object;
   }
   const std::uint64_t either = figures.compared + figures.covered_missing + figures.covered_extra;
-  figures.psnr_outline_db = psnr(sums.squares + outline.squares, either);
+  figures.psnr_outline_db = psnr(sums.squares + outline, either);
   if (figures.compared == 0) return figures;
   const double values = 3.0 * static_cast<double>(figures.compared);
   figures.rmse_level = std::sqrt(static_cast<double>(sums.squares) / values);
-  figures.rmse_unrounded_level = std::sqrt(sums.unrounded_squares / values);
+  figures.rmse_unrounded_level =
+      std::sqrt((sums.unrounded_squares[0] + sums.unrounded_squares[1] + sums.unrounded_squares[2]) / values);
   figures.over_one_level_percent = 100.0 * static_cast<double>(sums.over_one) / static_cast<double>(figures.compared);
   figures.psnr_db = psnr(sums.squares, figures.compared);
   return figures;

@@ -1,6 +1,7 @@
 #include "src/reference/picture_metrics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -10,58 +11,89 @@
 namespace rastertlm::reference {
 namespace {
 
-// Sums of a block of pixels. Of bytes they are integers of 32 bits, so that a processor adds many at once; a block
-// cannot overflow them: 3 * 4096 * 255^2 < 2^32.
-constexpr std::size_t kBlockPixels = 4096;
+// What is summed of pixels.
+struct Sums {
+  double largest = 0.0;
+  double squares = 0.0;  // of bytes: integers, exact
+  std::uint64_t over_one = 0;
+  std::uint64_t over_two = 0;
+};
 
-template <class Level>
-struct Sums;
-template <>
-struct Sums<std::uint8_t> {
-  using Value = std::int32_t;
-  using Square = std::uint32_t;
+// Bytes go block by block through plain loops that any compiler turns into vectors. No sum overflows:
+// 3 * 4096 * 255^2 < 2^32.
+constexpr std::size_t kBlockPixels = 4096;
+constexpr std::size_t kBlockBytes = 3 * kBlockPixels;
+
+// 1 at the first channel of each pixel.
+struct FirstChannels {
+  std::array<std::uint8_t, kBlockBytes> mask{};
+  constexpr FirstChannels() {
+    for (std::size_t i = 0; i < kBlockBytes; i += 3) mask[i] = 1;
+  }
 };
-template <>
-struct Sums<double> {
-  using Value = double;
-  using Square = double;
-};
+constexpr FirstChannels kFirst;
+
+// By value: std::max hands references on, which keeps loops from becoming vectors.
+std::uint8_t larger(std::uint8_t a, std::uint8_t b) { return a > b ? a : b; }
+std::uint8_t smaller(std::uint8_t a, std::uint8_t b) { return a < b ? a : b; }
+
+void add_block(const std::uint8_t* first, const std::uint8_t* second, std::size_t bytes, Sums& sums) {
+  std::uint8_t difference[kBlockBytes + 2];
+  for (std::size_t i = 0; i < bytes; ++i)
+    difference[i] = static_cast<std::uint8_t>(larger(first[i], second[i]) - smaller(first[i], second[i]));
+  difference[bytes] = difference[bytes + 1] = 0;
+  std::uint8_t largest = 0;
+  for (std::size_t i = 0; i < bytes; ++i) largest = larger(largest, difference[i]);
+  std::uint32_t squares = 0;
+  for (std::size_t i = 0; i < bytes; ++i) squares += static_cast<std::uint32_t>(difference[i] * difference[i]);
+  std::uint32_t over_one = 0;
+  std::uint32_t over_two = 0;
+  if (largest > 1) {
+    for (std::size_t i = 0; i < bytes; ++i)
+      difference[i] = larger(difference[i], larger(difference[i + 1], difference[i + 2]));
+    for (std::size_t i = 0; i < bytes; ++i) over_one += kFirst.mask[i] & (difference[i] > 1 ? 1U : 0U);
+    for (std::size_t i = 0; i < bytes; ++i) over_two += kFirst.mask[i] & (difference[i] > 2 ? 1U : 0U);
+  }
+  sums.largest = std::max(sums.largest, static_cast<double>(largest));
+  sums.squares += squares;
+  sums.over_one += over_one;
+  sums.over_two += over_two;
+}
+
+Sums sums_of(std::span<const std::uint8_t> first, std::span<const std::uint8_t> second) {
+  Sums sums;
+  for (std::size_t begin = 0; begin < first.size(); begin += kBlockBytes)
+    add_block(first.data() + begin, second.data() + begin, std::min(kBlockBytes, first.size() - begin), sums);
+  return sums;
+}
+
+Sums sums_of(std::span<const double> first, std::span<const double> second) {
+  Sums sums;
+  for (std::size_t i = 0; i < first.size(); i += 3) {
+    double most = 0.0;
+    for (std::size_t c = i; c < i + 3; ++c) {
+      const double d = std::abs(first[c] - second[c]);
+      sums.squares += d * d;
+      most = std::max(most, d);
+    }
+    sums.over_one += most > 1.0 ? 1 : 0;
+    sums.over_two += most > 2.0 ? 1 : 0;
+    sums.largest = std::max(sums.largest, most);
+  }
+  return sums;
+}
 
 template <class Level>
 LevelFigures compare(std::span<const Level> first, std::span<const Level> second) {
-  using Value = typename Sums<Level>::Value;
-  using Square = typename Sums<Level>::Square;
   if (first.size() != second.size() || first.empty() || first.size() % 3 != 0)
     throw std::invalid_argument("compare_levels: pictures of different sizes, or of none");
-  const std::size_t pixels = first.size() / 3;
-  Value largest = 0;
-  double squares = 0.0;  // of integers: exact
-  std::uint64_t over_one = 0;
-  std::uint64_t over_two = 0;
-  for (std::size_t begin = 0; begin < pixels; begin += kBlockPixels) {
-    const std::size_t end = std::min(begin + kBlockPixels, pixels);
-    Square sum = 0;
-    std::uint32_t ones = 0;
-    std::uint32_t twos = 0;
-    for (std::size_t i = 3 * begin; i < 3 * end; i += 3) {
-      const Value r = std::abs(static_cast<Value>(first[i]) - static_cast<Value>(second[i]));
-      const Value g = std::abs(static_cast<Value>(first[i + 1]) - static_cast<Value>(second[i + 1]));
-      const Value b = std::abs(static_cast<Value>(first[i + 2]) - static_cast<Value>(second[i + 2]));
-      const Value most = std::max(r, std::max(g, b));
-      sum += static_cast<Square>(r * r + g * g + b * b);
-      ones += most > 1 ? 1U : 0U;
-      twos += most > 2 ? 1U : 0U;
-      largest = std::max(largest, most);
-    }
-    squares += static_cast<double>(sum);
-    over_one += ones;
-    over_two += twos;
-  }
+  const Sums sums = sums_of(first, second);
+  const double pixels = static_cast<double>(first.size()) / 3.0;
   LevelFigures figures;
-  figures.max_level = static_cast<double>(largest);
-  figures.over_one_level_percent = 100.0 * static_cast<double>(over_one) / static_cast<double>(pixels);
-  figures.over_two_levels_percent = 100.0 * static_cast<double>(over_two) / static_cast<double>(pixels);
-  figures.rmse_level = std::sqrt(squares / static_cast<double>(first.size()));
+  figures.max_level = sums.largest;
+  figures.over_one_level_percent = 100.0 * static_cast<double>(sums.over_one) / pixels;
+  figures.over_two_levels_percent = 100.0 * static_cast<double>(sums.over_two) / pixels;
+  figures.rmse_level = std::sqrt(sums.squares / static_cast<double>(first.size()));
   if (figures.rmse_level > 0.0)
     figures.psnr_db = 20.0 * mathematics::log(255.0 / figures.rmse_level) / mathematics::log(10.0);
   return figures;

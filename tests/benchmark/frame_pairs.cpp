@@ -11,6 +11,7 @@
 
 #include "platforms/imogene/imogene.h"
 #include "src/geometry/lighting.h"
+#include "src/reference/picture_metrics.h"
 #include "tests/benchmark/benchmark_scene.h"
 #include "tests/benchmark/plain_variants.h"
 
@@ -79,6 +80,7 @@ class Pairs {
     measured_.plain_set_up = median(set_up_);
     measured_.plain_spans = median(spans_);
     measured_.plain_shading = median(shading_);
+    measured_.metrics = median(metrics_);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     measured_.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
@@ -93,6 +95,7 @@ class Pairs {
     if (!shown.updated) ++measured_.repeated_frames;
     if (shown.frame >= kWarmFrames) simulated_.push_back(shown_at - started_);
     if (case_.plain) plain_frame(shown, pixels);
+    if (case_.plain) compare_with_last(shown, pixels);
     started_ = worked();
   }
 
@@ -115,6 +118,16 @@ class Pairs {
     shading_.push_back(parts.shading);
   }
 
+  void compare_with_last(const imogene::ShownFrame& shown, const frame::Frame& pixels) {
+    if (shown.frame >= kWarmFrames) {
+      const double start = worked();
+      const reference::LevelFigures figures = reference::compare_levels(last_, pixels.rgb);
+      metrics_.push_back(worked() - start);
+      if ((figures.max_level > 0.0) != (last_ != pixels.rgb)) throw std::runtime_error("wrong figures of two frames");
+    }
+    last_ = pixels.rgb;
+  }
+
   Case case_;
   scene::Scene scene_;
   imogene::Machine machine_;
@@ -122,7 +135,8 @@ class Pairs {
   std::unique_ptr<plain::Loop> loop_;
   std::vector<std::uint8_t> rgb_;
   double started_ = 0.0;
-  std::vector<double> simulated_, plain_, set_up_, spans_, shading_;
+  std::vector<std::uint8_t> last_;  // the levels of the frame before
+  std::vector<double> simulated_, plain_, set_up_, spans_, shading_, metrics_;
   Measured measured_;
 };
 

@@ -23,6 +23,7 @@ struct Measured {
   double plain_set_up = 0.0;
   double plain_spans = 0.0;
   double plain_shading = 0.0;
+  double metrics = 0.0;  // the basic error figures of a frame and the one before it
   std::uint64_t covered = 0;
   std::uint64_t visible = 0;
   std::uint64_t different_bytes = 0;  // of RGB, over all frames
