@@ -14,7 +14,7 @@ using report::Column;
 // A name that the sweep gives may not say the unit.
 template <typename Figure>
 Column figure_column(const Figure& figure, const std::string& name) {
-  const bool says = figure.name.empty() || figure.unit.empty() || name.find(figure.unit) != std::string::npos;
+  const bool says = figure.name.empty() || figure.unit.empty() || says_unit(name, figure.unit);
   return {says ? name : fmt::format("{}, {}", name, in_one_line(figure.unit)), Align::right};
 }
 

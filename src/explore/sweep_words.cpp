@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -94,8 +95,17 @@ std::string in_one_line(const std::string& text) {
   return line;
 }
 
+bool says_unit(const std::string& name, const std::string& unit) {
+  const auto is_letter = [&](std::size_t i) {
+    return i < name.size() && std::isalpha(static_cast<unsigned char>(name[i])) != 0;
+  };
+  for (std::size_t at = name.find(unit); at != std::string::npos; at = name.find(unit, at + 1))
+    if ((at == 0 || !is_letter(at - 1)) && !is_letter(at + unit.size())) return true;
+  return false;
+}
+
 std::string unit_text(const std::string& unit, const std::string& name) {
-  return unit.empty() || unit == "fraction" || name.ends_with(unit) ? "" : ' ' + in_one_line(unit);
+  return unit.empty() || unit == "fraction" || says_unit(name, unit) ? "" : ' ' + in_one_line(unit);
 }
 
 std::string shown_figure(const std::optional<double>& figure) {

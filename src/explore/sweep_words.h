@@ -30,7 +30,9 @@ std::string heading(const std::string& title);
 
 // One line, whatever the text holds.
 std::string in_one_line(const std::string& text);
-// " Hz", what stands behind a figure of that name; empty where there is none, where the name ends with it, and for a
+// Whether the name has the unit among its words, which anything but letters divides: "set_up_us" has us, "bus" has not.
+bool says_unit(const std::string& name, const std::string& unit);
+// " Hz", what stands behind a figure of that name; empty where there is none, where the name says it, and for a
 // fraction.
 std::string unit_text(const std::string& unit, const std::string& name);
 // 333,333, 0.5094, infinite; "-" where there is none.

@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <system_error>
 #include <thread>
 
 #include "src/base/errors.h"
@@ -170,7 +171,8 @@ void* keep_memory() {
 }
 
 // The worker's life. It ends with who forked it; interrupts are for that one, who then ends it.
-[[noreturn]] void live(const Work& work, pid_t parent, int pipe, int printed) {
+// Nothing may be thrown out of it: what is on the stack before it belongs to the other process, its workers too.
+[[noreturn]] void live(const Work& work, pid_t parent, int pipe, int printed) noexcept {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
   std::signal(SIGINT, SIG_IGN);
@@ -185,10 +187,14 @@ void* keep_memory() {
     ::dup2(printed, STDERR_FILENO);
   }
   std::string message;
-  std::thread([&] {
-    [[maybe_unused]] const void* const held = keep_memory();
-    message = message_of(work);
-  }).join();
+  try {
+    std::thread([&] {
+      [[maybe_unused]] const void* const held = keep_memory();
+      message = message_of(work);
+    }).join();
+  } catch (const std::system_error&) {
+    message = message_of(work);  // no thread is to be had: as well without, if slower
+  }
   write_all(pipe, message);
   ::_exit(0);
 }

@@ -243,7 +243,7 @@ void visit_span(Visitor& v, run::SpanFrameFigures& s) {
   v.value("shaded_pixels", {"pixels", kCount, "lit one by one by the pixel unit: as many evaluations more"},
           s.shaded_pixels);
   v.value("shading_flops", {"flop", kCount, "of the pixel unit for them: its lines and pixels"}, s.shading_flops);
-  v.value("step_edges", {"edges", kCount, "that one triangle has whole and its neighbours, split, in parts"},
+  v.value("step_edges", {"edges", kCount, "that one triangle has whole and its neighbours in parts, or in other parts"},
           s.step_edges);
   v.value("largest_step_levels", {"levels", kFormula, "of colour along such an edge, in any channel"},
           s.largest_step_levels);

@@ -102,6 +102,25 @@ TEST(SweepText, ListsTheFrontAndWhatItBeats) {
   EXPECT_TRUE(has_line(front_section(table, front, 1), "  1 more; --rows says how many are listed, --csv lists all."));
 }
 
+// A unit of two letters is part of many a word.
+TEST(SweepText, LeavesAUnitOutWhereItIsAWordOfTheName) {
+  EXPECT_TRUE(says_unit("set_up_us", "us"));
+  EXPECT_TRUE(says_unit("triangles in", "triangles"));
+  EXPECT_TRUE(says_unit("used, us", "us"));
+  for (const char* name : {"bus", "used", "busy cycles", "time", ""}) {
+    EXPECT_FALSE(says_unit(name, "us")) << name;
+    EXPECT_EQ(unit_text("us", name), " us") << name;
+  }
+  SweepTable table;
+  table.axes = {axis_of("host.kind", {"1", "2"})};
+  table.objectives = {{"budgets[bus.frame].used", "us", Sense::minimise, "time used by the bus"}};
+  add_grid(table, [](const Values& v) { return Figures{10.0 + static_cast<double>(v[0])}; });
+  const std::string text = front_section(table, find_front(table), 10);
+  EXPECT_EQ(words_after(text, "point"),
+            (Fields{"kind", "time", "used", "by", "the", "bus,", "us", "equal", "to", "it"}))
+      << text;
+}
+
 // Two screens that are given: each has its answer, its front and its points of the beaten.
 SweepTable given_table() {
   SweepTable table;
