@@ -15,6 +15,7 @@
 #include "src/cli/explore_command.h"
 #include "src/cli/render_command.h"
 #include "src/cli/report_command.h"
+#include "src/cli/stability_command.h"
 #include "src/cli/usage.h"
 #include "src/cli/vectors_command.h"
 
@@ -34,6 +35,7 @@ Commands all_commands() {
   commands.push_back(std::make_unique<RenderCommand>());
   commands.push_back(std::make_unique<ExploreCommand>());
   commands.push_back(std::make_unique<VectorsCommand>());
+  commands.push_back(std::make_unique<StabilityCommand>());
   commands.push_back(std::make_unique<ReportCommand>());
   commands.push_back(std::make_unique<CompareCommand>());
   commands.push_back(std::make_unique<DescribeCommand>());

@@ -25,7 +25,9 @@ class InputFiles {
   // As read_inputs(). Inputs with the same scene share it.
   Inputs read(const std::string& machine_file, const std::string& scene_file,
               const std::vector<config::Override>& overrides);
-  // The same, where other values are still to come: the machine's own values need not fit each other.
+  // A machine alone: the content has no scene.
+  Inputs read_machine_alone(const std::string& machine_file, const std::vector<config::Override>& overrides);
+  // As read(), where other values are still to come: the machine's own values need not fit each other.
   Inputs read_base(const std::string& machine_file, const std::string& scene_file,
                    const std::vector<config::Override>& overrides);
 

@@ -75,6 +75,15 @@ Inputs InputFiles::read_base(const std::string& machine_file, const std::string&
   return read(machine_file, scene_file, overrides, false);
 }
 
+Inputs InputFiles::read_machine_alone(const std::string& machine_file, const std::vector<config::Override>& overrides) {
+  auto content = std::make_unique<Inputs::Content>();
+  content->machine_file = machine_file;
+  Diagnostics diagnostics;
+  gather(diagnostics, [&] { read_machine(overrides, true, *content, diagnostics); });
+  diagnostics.throw_if_any();
+  return Inputs(std::move(content));
+}
+
 Inputs InputFiles::read(const std::string& machine_file, const std::string& scene_file,
                         const std::vector<config::Override>& overrides, bool complete) {
   auto content = std::make_unique<Inputs::Content>();

@@ -43,7 +43,8 @@ TEST_F(CommandTest, RefusesWordsThatItDoesNotKnowAndNamesTheNearest) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"rendr"}, "rastertlm: unknown sub-command 'rendr'; did you mean 'render'?\n"},
       {{"xyzzyxyzzy"},
-       "rastertlm: unknown sub-command 'xyzzyxyzzy'; known: render, explore, vectors, report, compare, describe\n"},
+       "rastertlm: unknown sub-command 'xyzzyxyzzy'; known: render, explore, vectors, stability, report, compare, "
+       "describe\n"},
       {{"render", "machine.toml", "scene.toml", "--frame", "3"}, "did you mean '--frames'?"},
       {{"render", "machine.toml", "scene.toml", "--requir-rate=3"},
        "unknown option '--requir-rate'; did you mean '--require-rate'?"},

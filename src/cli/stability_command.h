@@ -1,0 +1,28 @@
+// rastertlm stability: how far machines are off on hard cases, beside what is proved of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "src/cli/command.h"
+
+namespace rastertlm::cli {
+
+class StabilityCommand : public Command {
+ public:
+  std::string name() const override { return "stability"; }
+  std::string summary() const override { return "Measure errors on hard cases beside their proved bounds"; }
+  void declare(CLI::App& app) override;
+  ExitCode run() override;
+
+ private:
+  std::vector<std::string> machines_{"configs/machines/quadratic.toml", "configs/machines/imogene.toml"};
+  std::string cases_ = "configs/hard_cases";
+  std::vector<std::string> chosen_;  // none: all
+  std::vector<std::string> overrides_;
+  std::uint64_t seed_ = 1;
+  std::int64_t tries_ = 0;  // 0: each case's own
+};
+
+}  // namespace rastertlm::cli

@@ -1,0 +1,96 @@
+// rastertlm stability, as a user gives it: the catalogue holds on the machines of this repository, and breaks at the
+// step in which the papers are wrong.
+#include <gmock/gmock.h>
+
+#include "tests/support/run_program.h"
+
+namespace rastertlm::test {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::string kConfigs = std::string(RASTERTLM_SOURCE_DIR) + "/configs";
+const std::string kQuadratic = kConfigs + "/machines/quadratic.toml";
+const std::string kImogene = kConfigs + "/machines/imogene.toml";
+
+class StabilityCommandTest : public ProgramTest {
+ protected:
+  Outcome stability(std::vector<std::string> more) const {
+    std::vector<std::string> arguments{"stability", "--cases", kConfigs + "/hard_cases"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+  // The parameters that broken cases name, each once.
+  static std::set<std::string> broken_steps(const Outcome& outcome) {
+    std::set<std::string> steps;
+    for (std::size_t at = outcome.out.find("\nbroken: "); at != std::string::npos;
+         at = outcome.out.find("\nbroken: ", at + 1)) {
+      const std::string line = outcome.out.substr(at + 1, outcome.out.find('\n', at + 1) - at - 1);
+      steps.insert(line.substr(line.rfind(' ') + 1));
+    }
+    return steps;
+  }
+};
+
+TEST_F(StabilityCommandTest, EveryBoundHoldsOnTheDefaultMachines) {
+  const Outcome outcome = stability({kQuadratic, kImogene, "--seed", "7"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.err, IsEmpty());
+  EXPECT_THAT(outcome.out, Not(HasSubstr("BROKEN")));
+  for (const auto& entry : std::filesystem::directory_iterator(kConfigs + "/hard_cases"))
+    EXPECT_THAT(outcome.out, HasSubstr(entry.path().stem().string().append(" ("))) << "no machine has such a step";
+  EXPECT_THAT(outcome.out, EndsWith("cases with a broken one: 0\n"));
+}
+
+struct Published {
+  const char* machine;
+  const char* set;
+  const char* step;
+};
+std::ostream& operator<<(std::ostream& out, const Published& p) { return out << p.machine << ", " << p.set; }
+
+class PublishedVariants : public StabilityCommandTest, public testing::WithParamInterface<Published> {};
+
+TEST_P(PublishedVariants, BreakAtTheStepThatThePapersHaveWrong) {
+  const Outcome outcome =
+      stability({kConfigs + "/machines/" + GetParam().machine, "--set", GetParam().set, "--tries", "100"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(broken_steps(outcome), std::set<std::string>{GetParam().step}) << outcome.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Papers, PublishedVariants,
+    testing::Values(Published{"quadratic.toml", "span_unit.start_edge=published", "span_unit.start_edge"},
+                    Published{"quadratic.toml", "set_up.solver=published", "set_up.solver"},
+                    Published{"quadratic.toml", "span_unit.fraction_bits=10", "span_unit.fraction_bits"},  // log2 M + 1
+                    Published{"imogene.toml", "ep1.carry_clock=clock2", "ep1.carry_clock"}));
+
+TEST_F(StabilityCommandTest, RepairsOfTheHouseHold) {
+  for (const char* set : {"span_unit.start_edge=prestep", "set_up.solver=published_swapped"})
+    EXPECT_THAT(broken_steps(stability({kQuadratic, "--set", set, "--tries", "50"})), IsEmpty()) << set;
+}
+
+TEST_F(StabilityCommandTest, SameSeedSameText) {
+  const std::vector<std::string> arguments{kQuadratic, "--case", "start_edge", "--tries", "20", "--seed", "3"};
+  EXPECT_EQ(stability(arguments).out, stability(arguments).out);
+  EXPECT_NE(stability(arguments).out,
+            stability({kQuadratic, "--case", "start_edge", "--tries", "20", "--seed", "4"}).out);
+}
+
+TEST_F(StabilityCommandTest, RefusesWhatItDoesNotKnow) {
+  const Outcome outcome = stability({kQuadratic, "--case", "start_egde"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean 'start_edge'?"));
+  write("cases/one.toml", "schema = 1\nstresses = \"x\"\nkind = \"start_edge\"\ntires = 3\n");
+  const Outcome misspelt = run({"stability", kQuadratic, "--cases", "cases"});
+  EXPECT_EQ(misspelt.exit_code, 2);
+  EXPECT_THAT(misspelt.err, HasSubstr("cases/one.toml:4: tires"));
+  EXPECT_EQ(run({"stability", kQuadratic, "--cases", "nowhere"}).exit_code, 2);
+  EXPECT_EQ(stability({kQuadratic, "--tries", "0"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace rastertlm::test
