@@ -12,6 +12,9 @@ using WorkerTest = ExploreTest;
 // Stacks of threads that no address space holds: as where a user has all the threads that one may have. Nothing is
 // thrown past a worker's beginning, where it would end the workers beside it, and no point is lost.
 TEST_F(WorkerTest, GoesOnWithoutAThreadOfItsOwn) {
+#if defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "ThreadSanitizer does not start with such a stack";
+#endif
   write("sweep.toml", grid(5));
   ASSERT_EQ(run({"explore", "run", "sweep.toml", "--store", "usual.sqlite"}).exit_code, 0);
   constexpr rlim_t kAll = rlim_t{1} << 47U;  // all of a process's addresses
