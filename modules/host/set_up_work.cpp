@@ -96,6 +96,7 @@ SetUpWork::SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& 
   }
   if (parameters.classifies())
     for (const auto& object : scene.objects) classifiers_.emplace_back(*object.mesh);
+  if (parameters.vertices == set_up::Vertices::shared) vertices_ = std::make_unique<SharedVertices>(scene);
 }
 
 void SetUpWork::count_paths() {
@@ -109,12 +110,23 @@ void SetUpWork::count_paths() {
     set_up::pieces(triangle, grid, format_.viewport);
   });
   constexpr std::uint64_t kCorners = 3;
-  corner_costs_.multiply = kCorners * 3;  // two coordinates onto the grid, and depth
-  corner_costs_.add = kCorners;
-  corner_costs_.convert = kCorners * 2;
-  position_costs_.multiply = kCorners * (12 + 3);
-  position_costs_.add = kCorners * 12;
-  position_costs_.divide = kCorners;
+  vertex_cost_ = counted([&] {
+    glm::dmat4 middle(1.0);
+    middle[3] = {0.0, 0.0, 0.5, 1.0};
+    geometry::to_screen(set_up::transform_vertex<Number>(glm::dvec3(0.0), glm::dvec3(0, 0, 1), middle, glm::dmat3(1.0)),
+                        format_.viewport);
+  });
+  // Where the vertices are on the screen already, their part is not done again.
+  uncut_cost_ =
+      parameters_.vertices == set_up::Vertices::shared ? inside_cost_ - vertex_cost_ * kCorners : inside_cost_;
+  corner_cost_.multiply = 3;  // two coordinates onto the grid, and depth
+  corner_cost_.add = 1;
+  corner_cost_.convert = 2;
+  position_cost_.multiply = 12 + 3;
+  position_cost_.add = 12;
+  position_cost_.divide = 1;
+  corner_costs_ = corner_cost_ * kCorners;
+  position_costs_ = position_cost_ * kCorners;
 }
 
 void SetUpWork::begin_frame(const geometry::Pose& pose, bool viewer_at_eye) {
@@ -140,8 +152,20 @@ void SetUpWork::begin_frame(const geometry::Pose& pose, bool viewer_at_eye) {
   subdivision_start_ = colourer_.subdivision();
   stitch_start_ = colourer_.stitched();
   lighting_start_ = lighting_.counts();
+  if (vertices_) light_vertices();
   if (parameters_.classifies()) classify();
   if (parameters_.stitches()) survey();
+}
+
+// All of them, before any triangle: charged to the first. Where every pixel is lit, no vertex is.
+void SetUpWork::light_vertices() {
+  waiting_operations_ += vertex_cost_ * vertices_->size();
+  waiting_operations_ += corner_cost_ * vertices_->size();
+  if (lighting_.needs_positions()) waiting_operations_ += position_cost_ * vertices_->size();
+  if (shades_pixels(parameters_.method)) return;
+  const OperationCounts before = lighting_.operations();
+  vertices_->light(pose_, lighting_);
+  waiting_operations_ += lighting_.operations() - before;
 }
 
 // Before any triangle is drawn: what it takes is charged to the first.
@@ -149,7 +173,7 @@ void SetUpWork::classify() {
   highlighted_.clear();
   for (std::size_t i = 0; i < classifiers_.size(); ++i) {
     highlighted_.push_back(&classifiers_[i].classify(
-        pose_.object_to_eye[i], {lighting_.lights(), lighting_.viewer_at_eye()}, parameters_.rings));
+        pose_.object_to_eye[i], {lighting_.lights(), lighting_.viewer_at_eye()}, parameters_.rings_treated()));
     counts_.classified += classifiers_[i].counts();
     waiting_operations_ += classifiers_[i].operations();
   }
@@ -184,7 +208,8 @@ void SetUpWork::survey() {
 set_up::Pieces<double> SetUpWork::pieces_counted(std::size_t object, std::size_t triangle) {
   bool cut = false;
   const set_up::Pieces<double> pieces = pieces_of(object, triangle, cut);
-  triangle_operations_ += cut ? counted([&] { count_pieces(); }) : inside_cost_;
+  triangle_operations_ += cut ? counted([&] { count_pieces(); }) : uncut_cost_;
+  whole_ = !cut;
   return pieces;
 }
 
@@ -245,7 +270,8 @@ bool SetUpWork::next() {
   const std::size_t lane = triangle_ % set_up::kLanes;
   if (lane == 0) transform_block();
   if ((inside_ >> lane & 1U) != 0) {
-    triangle_operations_ += inside_cost_;
+    triangle_operations_ += uncut_cost_;
+    whole_ = true;
     colour(set_up::triangle_of_lane<double>(screen_, lane), object_, triangle_);
     count_outcome(1, back_faces);
   } else {
@@ -316,6 +342,12 @@ void SetUpWork::fill_request(const set_up::ScreenTriangle<double>& piece, std::s
   request.material = scene_.objects[object].mesh->material[triangle];
   request.two_sided = scene_.objects[object].two_sided;
   request.highlighted = is_highlighted(object, triangle);
+  const bool from_vertices = whole_ && vertices_ != nullptr;
+  request.lit = nullptr;
+  if (from_vertices && !shades_pixels(parameters_.method)) {
+    lit_corners_ = vertices_->corners(object, triangle);
+    request.lit = &lit_corners_;
+  }
   const int finer = parameters_.corner_bits() - static_cast<int>(parameters_.snap_bits);
   for (std::size_t i = 0; i < 3; ++i) {
     const geometry::ScreenVertex<double>& corner = piece[i];
@@ -327,8 +359,10 @@ void SetUpWork::fill_request(const set_up::ScreenTriangle<double>& piece, std::s
     if (lighting_.needs_positions()) point.position = eye_position(corner);
     request.depth[i] = std::clamp(corner.z, 0.0, 1.0) * depth_range_ + near_word_;
   }
-  triangle_operations_ += corner_costs_;
-  if (lighting_.needs_positions()) triangle_operations_ += position_costs_;
+  if (!from_vertices) {
+    triangle_operations_ += corner_costs_;
+    if (lighting_.needs_positions()) triangle_operations_ += position_costs_;
+  }
   const bool chosen = parameters_.method != ShadingMethod::gouraud_phong || request.highlighted;
   request.by_pixels = shader_ != nullptr && chosen;
 }

@@ -11,6 +11,7 @@
 
 #include "modules/host/path_counts.h"
 #include "modules/host/resident_scene.h"
+#include "modules/host/shared_vertices.h"
 #include "modules/pixel_unit/pixel_shader.h"
 #include "modules/set_up/colour_steps.h"
 #include "modules/set_up/highlight_classifier.h"
@@ -92,6 +93,7 @@ class SetUpWork {
   glm::dvec3 eye_position(const geometry::ScreenVertex<double>& corner) const;
   void count_paths();
   void classify();
+  void light_vertices();
   void give_shading();
   void count_outcome(std::size_t pieces, std::uint64_t back_faces_before);
 
@@ -107,6 +109,10 @@ class SetUpWork {
   set_up::TriangleColourer colourer_;
   set_up::SpanLoadCosts load_costs_;
   geometry::OperationCounts inside_cost_;     // a triangle's corners to the screen, none outside the band
+  geometry::OperationCounts uncut_cost_;      // of it, what is left where vertices are placed by themselves
+  geometry::OperationCounts vertex_cost_;     // one to the screen
+  geometry::OperationCounts corner_cost_;     // one to the grid, and its depth word
+  geometry::OperationCounts position_cost_;   // one, where lights need it
   geometry::OperationCounts corner_costs_;    // all three to the grid, and their depth words
   geometry::OperationCounts position_costs_;  // the corners', where lights need them
 
@@ -124,6 +130,9 @@ class SetUpWork {
   set_up::LightingCounts lighting_start_;
   std::vector<set_up::HighlightClassifier> classifiers_;  // an object each, for methods that need them
   std::vector<const std::vector<set_up::Highlighted>*> highlighted_;
+  std::unique_ptr<SharedVertices> vertices_;  // where they are shared
+  std::array<set_up::PointLighting::Levels, 3> lit_corners_{};
+  bool whole_ = true;  // nothing was cut from the triangle: its corners are vertices
   std::unique_ptr<pixel_unit::PixelShader> shader_;
   std::deque<pixel_unit::PixelTriangle> shadings_;  // of the frame
   set_up::SpanLoadCosts depth_costs_;

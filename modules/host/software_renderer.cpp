@@ -3,22 +3,14 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
+#include "modules/pixel_unit/attribute_plane.h"
 #include "modules/span_unit/span_unit.h"
 
 namespace rastertlm::host {
 namespace {
 
 using geometry::OperationCounts;
-using set_up::LitPoint;
-
-OperationCounts times(OperationCounts each, std::uint64_t count) {
-  for (std::uint64_t* one : {&each.add, &each.multiply, &each.divide, &each.square_root, &each.compare, &each.convert,
-                             &each.integer, &each.integer_multiply})
-    *one *= count;
-  return each;
-}
 
 // Values that are stepped from pixel to pixel, and the depth test.
 OperationCounts pixel_cost(std::uint64_t additions) {
@@ -28,46 +20,42 @@ OperationCounts pixel_cost(std::uint64_t additions) {
   return cost;
 }
 
-// Light at the pixels of triangles whose normals are linear between corners.
+// Of a pixel that is lit: its normal, and its position where light or viewer are at a point; in perspective both over
+// w, which is stepped with them and divided by.
+OperationCounts lit_pixel_cost(bool with_position, bool perspective) {
+  const std::uint64_t values = with_position ? 6 : 3;
+  OperationCounts cost = pixel_cost(values);
+  if (!perspective) return cost;
+  cost.add += 1;
+  cost.divide = 1;
+  cost.multiply = values;
+  return cost;
+}
+
+std::uint64_t interpolated_additions(ShadingMethod method) { return method == ShadingMethod::quadratic ? 6 : 3; }
+
+// Light at the pixels of triangles that are shaded one by one.
 class PixelLighting {
  public:
   PixelLighting(const Rendering& rendering, const geometry::Pose& pose)
-      : rendering_(rendering),
-        pose_(pose),
-        lighting_(rendering.set_up, rendering.surfaces, rendering.rules),
+      : lighting_(rendering.set_up, rendering.surfaces, rendering.rules),
         // What points between corners cost by their weights is not what they cost step by step.
-        between_(rendering.set_up, rendering.surfaces, rendering.rules),
-        at_corners_(rendering.set_up, rendering.surfaces, rendering.rules) {
+        between_(rendering.set_up, rendering.surfaces, rendering.rules) {
     std::vector<geometry::LightSource> lights;
     for (const geometry::Light& light : pose.lights)
       lights.push_back({light.kind == geometry::LightKind::point, light.vector, light.intensity, light.intensity});
-    for (set_up::PointLighting* lighting : {&lighting_, &between_, &at_corners_})
+    for (set_up::PointLighting* lighting : {&lighting_, &between_})
       lighting->set_lights(lights, rendering.viewer_at_eye);
+    pixel_cost_ =
+        lit_pixel_cost(lighting_.needs_positions(), rendering.set_up.attributes == set_up::Attributes::perspective);
   }
 
-  // Of a triangle that was clipped, what its corners see is taken for its pieces' corners.
-  void choose(std::size_t object, std::size_t triangle) {
-    const geometry::Mesh& mesh = *rendering_.scene.objects[object].mesh;
-    material_ = mesh.material[triangle];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t corner = mesh.triangles[triangle][i];
-      const glm::dvec4 eye = pose_.object_to_eye[object] * glm::dvec4(mesh.positions[corner], 1.0);
-      corners_[i].normal = pose_.normal_to_eye[object] * mesh.normals[corner];
-      corners_[i].position = glm::dvec3(eye);
-      corners_[i].inverse_w = 1.0 / (pose_.eye_to_clip * eye).w;
-    }
-  }
-
-  // As the set-up for a method that lights corners does.
-  void light_corners() {
-    for (const LitPoint& corner : corners_) at_corners_.levels(corner, material_);
-  }
-
-  void light(const set_up::ColourTriangle& triangle, const span_unit::Span& span) {
+  void light(const pixel_unit::PixelTriangle& triangle, const span_unit::Span& span) {
+    const auto& corners = triangle.corners;
     std::array<glm::dvec2, 3> at{};
     for (std::size_t i = 0; i < 3; ++i)
       at[i] = std::ldexp(1.0, -triangle.fraction_bits) *
-              glm::dvec2(static_cast<double>(triangle.corners[i].x), static_cast<double>(triangle.corners[i].y));
+              glm::dvec2(static_cast<double>(corners[i].at.x), static_cast<double>(corners[i].at.y));
     const glm::dvec2 b = at[1] - at[0];
     const glm::dvec2 c = at[2] - at[0];
     const double area = b.x * c.y - b.y * c.x;
@@ -75,32 +63,23 @@ class PixelLighting {
       const glm::dvec2 p = glm::dvec2(span.column + pixel, span.line) - at[0];
       const double second = (p.x * c.y - p.y * c.x) / area;
       const double third = (b.x * p.y - b.y * p.x) / area;
-      lighting_.levels(
-          between_.inside({&corners_[0], &corners_[1], &corners_[2]}, {1.0 - second - third, second, third}),
-          material_);
+      lighting_.levels(between_.inside({&corners[0], &corners[1], &corners[2]}, {1.0 - second - third, second, third}),
+                       triangle.material);
     }
   }
 
-  const OperationCounts& operations() const { return lighting_.operations(); }
-  const OperationCounts& corner_operations() const { return at_corners_.operations(); }
+  // Of `pixels` that were lit.
+  OperationCounts operations(std::uint64_t pixels) const {
+    OperationCounts all = lighting_.operations();
+    all += pixel_cost_ * pixels;
+    return all;
+  }
 
  private:
-  const Rendering& rendering_;
-  const geometry::Pose& pose_;
   set_up::PointLighting lighting_;
   set_up::PointLighting between_;
-  set_up::PointLighting at_corners_;
-  std::array<LitPoint, 3> corners_{};
-  std::size_t material_ = 0;
+  OperationCounts pixel_cost_;
 };
-
-// Calls visit(object, triangle) where the next triangle of the set-up is that of the scene.
-template <class Visit>
-void each_triangle(const ResidentScene& scene, SetUpWork& work, const Visit& visit) {
-  for (std::size_t object = 0; object < scene.objects.size(); ++object)
-    for (std::size_t triangle = 0; triangle < scene.objects[object].mesh->triangles.size() && work.next(); ++triangle)
-      visit(object, triangle);
-}
 
 }  // namespace
 
@@ -119,6 +98,8 @@ void SoftwareParameters::declare(parameter::Table& table) {
              About{"us", "Of a triangle that is drawn, beside its operations: calls, loops over its lines.", moves});
   table.real("software.pixel_ns", pixel_ns, {0.0, 1e9},
              About{"ns", "Of a pixel beside its operations: the loop, and what it takes to store it.", moves});
+  table.real("software.light_us", light_us, {0.0, 1e9},
+             About{"us", "Of a light at a point, beside its operations: calls, roots and powers of a library.", moves});
 }
 
 double software_seconds(const SoftwareParameters& parameters, const SoftwareWork& work) {
@@ -127,40 +108,58 @@ double software_seconds(const SoftwareParameters& parameters, const SoftwareWork
   return parameters.frame_us * kMicrosecond +
          static_cast<double>(work.triangles) * parameters.triangle_us * kMicrosecond +
          static_cast<double>(work.pixels) * parameters.pixel_ns * kNanosecond +
+         static_cast<double>(work.lights) * parameters.light_us * kMicrosecond +
          static_cast<double>(work.operations.flops()) / (parameters.sustained_mflops * 1e6);
 }
 
+bool has_software(ShadingMethod method) {
+  switch (method) {
+    case ShadingMethod::gouraud:
+    case ShadingMethod::quadratic:
+    case ShadingMethod::highlight_subdivision:
+    case ShadingMethod::regular_subdivision:
+    case ShadingMethod::gouraud_phong:
+    case ShadingMethod::phong:
+      return true;
+    default:
+      return false;
+  }
+}
+
+SoftwareWork& SoftwareWork::operator+=(const SoftwareWork& other) {
+  triangles += other.triangles;
+  pixels += other.pixels;
+  lit_pixels += other.lit_pixels;
+  lights += other.lights;
+  operations += other.operations;
+  return *this;
+}
+
 SoftwareWork software_work(const Rendering& rendering, ShadingMethod method, const geometry::Pose& pose) {
-  const bool phong = method == ShadingMethod::phong;
-  if (!phong && method != ShadingMethod::gouraud && method != ShadingMethod::quadratic)
-    throw std::invalid_argument("no software for this shading method");
+  if (!has_software(method)) throw std::invalid_argument("no software for this shading method");
   set_up::SetUpParameters set_up = rendering.set_up;
-  set_up.method = phong ? ShadingMethod::gouraud : method;  // planes of a normal are those of a colour
+  set_up.method = method;
   SetUpWork triangles(rendering.scene, set_up, rendering.format, rendering.surfaces, rendering.rules);
   span_unit::SpanUnit spans(rendering.span_unit, static_cast<std::uint32_t>(rendering.format.viewport.columns),
                             static_cast<std::uint32_t>(rendering.format.viewport.lines));
   PixelLighting pixels(rendering, pose);
   SoftwareWork work;
   triangles.begin_frame(pose, rendering.viewer_at_eye);
-  each_triangle(rendering.scene, triangles, [&](std::size_t object, std::size_t triangle) {
+  while (triangles.next()) {
     work.operations += triangles.operations();
-    if (phong) pixels.choose(object, triangle);
-    for (const set_up::ColourTriangle& coloured : triangles.coloured()) {
-      if (phong) pixels.light_corners();
-      const span_unit::TriangleLoad load = set_up::span_load(coloured, rendering.format.span);
-      if (load.count == 0) continue;
+    for (const span_unit::TriangleLoad& load : triangles.loads()) {
       ++work.triangles;
       for (const span_unit::Span& span : spans.draw(load).spans) {
         work.pixels += span.count;
-        if (phong) pixels.light(coloured, span);
+        if (load.shading == nullptr) continue;
+        work.lit_pixels += span.count;
+        pixels.light(*load.shading, span);
       }
     }
-  });
-  const std::uint64_t additions = method == ShadingMethod::quadratic ? 6 : 3;
-  work.operations += times(pixel_cost(additions), work.pixels);
-  // Corners are not lit where pixels are.
-  if (phong) work.operations = work.operations - pixels.corner_operations();
-  work.operations += pixels.operations();
+  }
+  work.lights = (triangles.counts().lighting.evaluations + work.lit_pixels) * pose.lights.size();
+  work.operations += pixel_cost(interpolated_additions(method)) * (work.pixels - work.lit_pixels);
+  work.operations += pixels.operations(work.lit_pixels);
   return work;
 }
 

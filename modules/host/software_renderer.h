@@ -19,23 +19,27 @@
 
 namespace rastertlm::host {
 
-// A computer that renders: every operation that is counted at one rate, and what a frame, a triangle and a pixel take
-// beside their operations.
+// A computer that renders: every operation that is counted at one rate, and what a frame, a triangle, a pixel and a
+// light take beside their operations.
 struct SoftwareParameters {
   std::string preset = "pc_2000";
   double sustained_mflops = 51.2;
   double frame_us = 0.0;
   double triangle_us = 0.0;
   double pixel_ns = 1206.6;
+  double light_us = 0.0;
 
   // Paths "software.preset" ...
   void declare(parameter::Table& table);
 };
 
 struct SoftwareWork {
-  std::uint64_t triangles = 0;  // that are drawn: pieces of clipped ones, one by one
-  std::uint64_t pixels = 0;     // of them on the screen, hidden ones included
+  std::uint64_t triangles = 0;   // that are drawn: pieces of clipped ones, one by one
+  std::uint64_t pixels = 0;      // of them on the screen, hidden ones included
+  std::uint64_t lit_pixels = 0;  // of these: light evaluated there
+  std::uint64_t lights = 0;      // at points: evaluations of the lighting equation, of each its lights
   geometry::OperationCounts operations;
+  SoftwareWork& operator+=(const SoftwareWork& other);
 };
 
 double software_seconds(const SoftwareParameters& parameters, const SoftwareWork& work);
@@ -51,10 +55,17 @@ struct Rendering {
   bool viewer_at_eye = false;
 };
 
+// Programs are those of the papers: others are written for hardware.
+bool has_software(ShadingMethod method);
+
 // A frame, by
 //   gouraud     light at three points, a plane for each colour; a pixel: three additions
 //   quadratic   light at six, a quadratic each; a pixel: six additions
-//   phong       planes of the normal; a pixel: three additions, and light there, every pixel the way that it goes
+//   phong       planes of what is lit; a pixel: their steps, and light there, every pixel the way that it goes
+//   highlight_subdivision, regular_subdivision
+//               classification, search and cuts of the set-up; all parts as by gouraud
+//   gouraud_phong
+//               classification; as by phong what may hold a highlight, and highlight_test.rings of neighbours
 // With depth: an addition and a comparison a pixel. Hidden pixels are shaded too, and the loop over a triangle's lines
 // is the triangle's. Throws std::invalid_argument for other methods.
 SoftwareWork software_work(const Rendering& rendering, ShadingMethod method, const geometry::Pose& pose);

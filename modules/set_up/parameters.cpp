@@ -70,6 +70,9 @@ void SetUpParameters::declare_common(parameter::Table& table) {
 
 void SetUpParameters::declare_adaptive(parameter::Table& table) {
   declare_common(table);
+  table.choice("set_up.vertices", vertices, {"corners", "shared"},
+               About{"", "What is placed and lit once a frame: each triangle's corners, or the mesh's vertices.",
+                     "budgets host, budgets software, units[] set-up processor"});
   table.integer("highlight_test.rings", rings, {0, 16},
                 About{"rings", "Neighbours of triangles that may hold a highlight are treated alike, so often over.",
                       kHost, kClassified});

@@ -22,6 +22,9 @@ enum class TestPoints { centroid, points, h1h2 };
 // Corners of children: exact midpoints of their parent's, or midpoints moved to the grid of all vertices.
 enum class ChildCoverage { parent, snapped };
 
+// What is computed once: a corner of each triangle, or a vertex of the mesh, whichever triangles share it.
+enum class Vertices { corners, shared };
+
 struct SetUpParameters {
   ShadingMethod method = ShadingMethod::quadratic;
   Solver solver = Solver::barycentric;
@@ -35,6 +38,7 @@ struct SetUpParameters {
   std::int64_t test_depth_limit = 4;
   ChildCoverage child_coverage = ChildCoverage::parent;
   // Of the methods of 003:
+  Vertices vertices = Vertices::corners;
   std::int64_t rings = 1;        // of neighbours of triangles that may hold a highlight
   std::int64_t refinements = 2;  // of its centre: H1 and H2 in turns
   double area_pixels = 32.0;     // regular subdivision goes on above it
@@ -61,6 +65,8 @@ struct SetUpParameters {
   bool stitches() const { return stitch && subdivides(); }
   // Triangles are told apart before any is drawn.
   bool classifies() const { return subdivides() || method == ShadingMethod::gouraud_phong; }
+  // Rings of neighbours that are treated alike. A highlight is cut at its centre, which neighbours have none of.
+  std::int64_t rings_treated() const { return method == ShadingMethod::highlight_subdivision ? 0 : rings; }
   // Some triangles' pixels, or all, are shaded one by one: the machine has a pixel unit.
   bool shades_some_pixels() const { return method == ShadingMethod::gouraud_phong || shades_pixels(method); }
   // Triangles are cut into parts whose corners are on a finer grid.

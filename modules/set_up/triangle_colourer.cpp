@@ -236,6 +236,10 @@ void TriangleColourer::light_knots(const ColourRequest& request, bool turned, Kn
   if (turned)
     for (std::size_t i = 0; i < 3; ++i) points[i].normal = -points[i].normal;
   const bool linear = parameters_.linear();
+  if (request.lit != nullptr && linear && !turned) {
+    std::copy(request.lit->begin(), request.lit->end(), knots.levels.begin());
+    return;
+  }
   if (!linear) {
     points[kMiddle12] = lighting_.middle(points[0], points[1]);
     points[kMiddle13] = lighting_.middle(points[0], points[2]);

@@ -37,6 +37,8 @@ struct ColourRequest {
   bool two_sided = false;
   bool by_pixels = false;    // a pixel unit lights it: it gets no colours
   bool highlighted = false;  // may hold a highlight, or lies beside what may (003)
+  // Light at the corners of its front, where it is known: then it is not evaluated. Of linear methods.
+  const std::array<PointLighting::Levels, 3>* lit = nullptr;
 };
 
 class TriangleColourer {

@@ -136,6 +136,17 @@ Modelled modelled_figures(const quadratic::Quadratic& platform, const scene::Sce
   return m;
 }
 
+// Of the displayed frames.
+void add_software_budgets(const quadratic::Quadratic& platform, std::uint64_t displayed, std::vector<Budget>& budgets) {
+  const quadratic::Machine& machine = platform.machine();
+  std::vector<geometry::Pose> poses;
+  for (std::size_t frame = 0; frame < std::min<std::size_t>(displayed, platform.frames().size()); ++frame)
+    poses.push_back(platform.frames()[frame].set_up.pose);
+  for (Budget& b :
+       software_budgets(machine.software, platform.rendering(), machine.platform_name, poses, frame_seconds(platform)))
+    budgets.push_back(std::move(b));
+}
+
 // A picture of which parts are another's, or missing, is not what the scene asks for, however often it changes.
 void judge_torn_frames(Result& result) {
   std::uint64_t lines = 0;
@@ -193,9 +204,7 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   result.obtained_refresh_hz = platform->timing().obtained_refresh_hz();
   result.units = unit_figures(*platform);
   result.budgets = quadratic_budgets(*platform);
-  for (Budget& b : software_budgets(machine.software, platform->rendering(), platform->frames().front().set_up.pose,
-                                    frame_seconds(*platform)))
-    result.budgets.push_back(std::move(b));
+  add_software_budgets(*platform, options.frames, result.budgets);
   result.answer = quadratic_answer(*platform, result.budgets);
   judge_torn_frames(result);
   result.links = link_figures(*platform);

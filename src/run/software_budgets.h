@@ -1,6 +1,7 @@
 // What a frame would take a computer that draws it in software, by shading method, beside the time that a frame has.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "modules/host/software_renderer.h"
@@ -8,8 +9,10 @@
 
 namespace rastertlm::run {
 
-// Budgets "software.gouraud", "software.quadratic", "software.phong" of one frame; none of them applies to the machine.
+// Budgets "software.gouraud" ... of a frame, the mean of those whose poses are given, at least one: by every method of
+// the machine's platform for which there is a program, and by Phong. None of them applies to the machine.
 std::vector<Budget> software_budgets(const host::SoftwareParameters& software, const host::Rendering& rendering,
-                                     const geometry::Pose& pose, double frame_seconds);
+                                     const std::string& platform, const std::vector<geometry::Pose>& poses,
+                                     double frame_seconds);
 
 }  // namespace rastertlm::run

@@ -207,7 +207,7 @@ TEST_F(BadInputTest, RatesOfAHostThatAreNotAboveZero) {
 TEST_F(BadInputTest, PresetThatIsUnknownNamesThoseThatAre) {
   write("machine.toml", "schema = 1\nplatform = \"imogene\"\n[host]\npreset = \"t900\"\n");
   refused({"machine.toml:4: host.preset: unknown preset 't900'",
-           "'soft_core', 't800_20', 't800_30', 't805_30', 't9000'", "nearest: 't9000'"});
+           "'soft_core', 'sparcstation_20', 't800_20', 't800_30', 't805_30', 't9000'", "nearest: 't9000'"});
 }
 
 TEST_F(BadInputTest, InstructionsOfAHostThatIsChargedAtItsRate) {

@@ -86,6 +86,7 @@ const std::map<std::string, Change>& special_changes() {
       {"software.preset", {{}, {"software.preset=t800_20"}}},
       {"software.frame_us", {{}, {"software.frame_us=5.0"}}},
       {"software.triangle_us", {{}, {"software.triangle_us=5.0"}}},
+      {"software.light_us", {{}, {"software.light_us=5.0"}}},
       {"span_unit.share", {{"span_unit.units=2"}, {"span_unit.share=triangles"}}},
   };
   return changes;

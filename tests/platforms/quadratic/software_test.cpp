@@ -57,8 +57,15 @@ TEST(Software, CountsWhatPixelsTake) {
     EXPECT_EQ(work->triangles, 2U);
     EXPECT_EQ(work->pixels, kPixels);
   }
-  // Light at each pixel, and not at six corners.
-  EXPECT_EQ(phong.operations.flops() - gouraud.operations.flops(), (kPixels - 6) * kLight);
+  // Light at each pixel, and not at six corners; planes of normals, set up otherwise than those of colours.
+  constexpr double kPlanes = 2 * 50;
+  EXPECT_NEAR(static_cast<double>(phong.operations.flops() - gouraud.operations.flops()),
+              static_cast<double>((kPixels - 6) * kLight), kPlanes);
+  EXPECT_EQ(gouraud.lights, 6U);
+  EXPECT_EQ(quadratic.lights, 12U);
+  EXPECT_EQ(phong.lights, kPixels);
+  EXPECT_EQ(phong.lit_pixels, kPixels);
+  EXPECT_EQ(gouraud.lit_pixels, 0U);
   // Three more additions a pixel; light at three more points of a triangle and its solution, some hundreds a triangle.
   const std::uint64_t more = quadratic.operations.flops() - gouraud.operations.flops() - 3 * kPixels;
   EXPECT_GT(more, 2 * 3 * kLight);
@@ -71,17 +78,26 @@ TEST(Software, TakesItsTime) {
   computer.frame_us = 100.0;
   computer.triangle_us = 10.0;
   computer.pixel_ns = 500.0;
+  computer.light_us = 0.25;
   SoftwareWork work;
   work.triangles = 3;
   work.pixels = 8;
+  work.lights = 20;
   work.operations.add = 4;
   work.operations.divide = 2;
   work.operations.integer = 1'000'000;  // in the sustained rate
-  EXPECT_NEAR(host::software_seconds(computer, work), 1e-6 * (100 + 30 + 4 + 3), 1e-12);
+  EXPECT_NEAR(host::software_seconds(computer, work), 1e-6 * (100 + 30 + 4 + 3 + 5), 1e-12);
 }
 
-TEST(Software, KnowsThreeMethods) {
-  EXPECT_THROW(screen_work(ShadingMethod::highlight_subdivision), std::invalid_argument);
+TEST(Software, KnowsTheMethodsOfThePapersAlone) {
+  for (const ShadingMethod method :
+       {ShadingMethod::highlight_subdivision, ShadingMethod::regular_subdivision, ShadingMethod::gouraud_phong})
+    EXPECT_GE(screen_work(method).triangles, 2U);
+  for (const ShadingMethod method : {ShadingMethod::duff, ShadingMethod::taylor, ShadingMethod::angular,
+                                     ShadingMethod::pseudo_phong, ShadingMethod::quadratic_adaptive}) {
+    EXPECT_FALSE(host::has_software(method));
+    EXPECT_THROW(screen_work(method), std::invalid_argument);
+  }
 }
 
 }  // namespace
