@@ -127,7 +127,7 @@ TEST_F(ReadySweepTest, ShadingMethods) {
   ASSERT_EQ(found.rows.size(), 3 * found.axes.at(1).values.size());
   for (const explore::Row& row : found.rows)
     for (const std::optional<double>& one : row.further) EXPECT_TRUE(one.has_value()) << row.number;
-  const auto of = [&](const char* figure_path, const std::string& method, const char* scene = "teapot_four_lights") {
+  const auto of = [&](const char* figure_path, const std::string& method, const char* scene = "teapot_at_rest") {
     return figure(found, figure_path, {scene, method, "5", "256 x 256", "soft core"});
   };
   const auto error = [&](const std::string& method) { return of("images[0].error.rmse_level", method); };
@@ -142,7 +142,7 @@ TEST_F(ReadySweepTest, ShadingMethods) {
   EXPECT_LT(host("Gouraud"), host("pseudo-Phong 1"));
   EXPECT_LT(host("regular 256 px, 1 ring"), host("regular 8 px, 1 ring"));
   EXPECT_LT(host("highlight 1.0"), host("highlight 0.05"));
-  for (const char* scene : {"teapot_four_lights", "sphere_168", "sphere_690"}) {
+  for (const char* scene : {"teapot_at_rest", "sphere_168", "sphere_690"}) {
     EXPECT_EQ(of("images[0].shaded_pixels", "Gouraud", scene), 0.0);
     EXPECT_EQ(of("images[0].lighting_evaluations", "Phong", scene), 0.0);
     EXPECT_EQ(of("images[0].facing", "Phong", scene), of("images[0].drawn_pieces", "Phong", scene));
