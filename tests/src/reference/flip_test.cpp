@@ -96,7 +96,9 @@ struct Image {
   int lines;
   std::vector<Colour> pixels;  // Y, Cx, Cz
   const Colour& at(int x, int y) const {
-    return pixels[static_cast<std::size_t>(std::clamp(y, 0, lines - 1) * columns + std::clamp(x, 0, columns - 1))];
+    const auto line = static_cast<std::size_t>(std::clamp(y, 0, lines - 1));
+    const auto column = static_cast<std::size_t>(std::clamp(x, 0, columns - 1));
+    return pixels[line * static_cast<std::size_t>(columns) + column];
   }
   double sum(const Filter& filter, int x, int y, const std::function<double(const Colour&)>& of) const {
     double total = 0.0;
