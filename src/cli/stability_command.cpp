@@ -3,41 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <optional>
 
 #include "src/analysis/stability.h"
 #include "src/cli/usage.h"
-#include "src/report/number_text.h"
-#include "src/report/text_table.h"
+#include "src/report/stability_report.h"
+#include "src/report/text_file.h"
 #include "src/run/input_files.h"
 
 namespace rastertlm::cli {
 namespace {
-
-std::string figure(double value) { return std::isinf(value) ? "none" : fmt::format("{:.4g}", value); }
-
-// The part of the bound that is left.
-std::string margin(const analysis::Measurement& m) {
-  if (m.bound == 0.0 || std::isinf(m.measured)) return m.holds() ? "exact" : "-";
-  return fmt::format("{:.3g} %", 100 * (1 - m.measured / m.bound));
-}
-
-std::string text_of(const analysis::Finding& finding) {
-  report::TextTable table({{"input", report::Align::left},
-                           {"measured", report::Align::right},
-                           {"bound", report::Align::right},
-                           {"unit", report::Align::left},
-                           {"margin", report::Align::right},
-                           {"verdict", report::Align::left}},
-                          "  ");
-  for (const analysis::Measurement& m : finding.measurements)
-    table.row({m.what, figure(m.measured), figure(m.bound), m.unit, margin(m),
-               fmt::format("{}, {}", m.kind == analysis::BoundKind::proved ? "proved" : "required",
-                           m.holds() ? "holds" : "BROKEN")});
-  return fmt::format("{} ({}): {}\n{}\n", finding.name, finding.step, finding.stresses, table.text());
-}
 
 std::vector<analysis::HardCase> chosen_of(std::vector<analysis::HardCase> all, const std::vector<std::string>& names) {
   if (names.empty()) return all;
@@ -66,6 +42,8 @@ void StabilityCommand::declare(CLI::App& app) {
   app.add_option("--tries", tries_, "random inputs of each case, in place of its own")
       ->check(CLI::Validator([](std::string& text) { return whole_from_one(text); }, "", ""))
       ->type_name("N");
+  app.add_option("--json", json_, "write what was found as JSON; - is standard output, in place of the tables")
+      ->type_name("FILE");
 }
 
 ExitCode StabilityCommand::run() {
@@ -75,26 +53,21 @@ ExitCode StabilityCommand::run() {
   const std::vector<analysis::HardCase> cases = chosen_of(analysis::read_hard_cases(cases_), chosen_);
   std::optional<std::int64_t> tries;
   if (tries_ > 0) tries = tries_;
+  const bool tables = json_ != "-";
   run::InputFiles files;
-  std::size_t measured = 0;
-  std::vector<std::string> broken;
+  report::StabilityReport found{seed_, {}};
   for (const std::string& file : machines_) {
     const run::Inputs machine = files.read_machine_alone(file, overrides);
-    std::string text = fmt::format("{}, seed {}\n\n", file, seed_);
-    for (const analysis::HardCase& one : cases) {
-      const auto finding = analysis::examine(one, *machine.content, seed_, tries);
-      if (!finding) continue;
-      measured += finding->measurements.size();
-      text += text_of(*finding);
-      if (!finding->holds()) broken.push_back(fmt::format("{}: {}: {}", file, finding->name, finding->step));
-    }
-    std::fputs(text.c_str(), stdout);
+    report::MachineFindings& of_machine = found.machines.emplace_back();
+    of_machine.file = file;
+    for (const analysis::HardCase& one : cases)
+      if (auto finding = analysis::examine(one, *machine.content, seed_, tries))
+        of_machine.findings.push_back(*std::move(finding));
+    if (tables) std::fputs(report::findings_text(of_machine, seed_).c_str(), stdout);
   }
-  std::string end =
-      fmt::format("{}; cases with a broken one: {}\n", report::counted(measured, "bound", "bounds"), broken.size());
-  for (const std::string& one : broken) end += fmt::format("broken: {}\n", one);
-  std::fputs(end.c_str(), stdout);
-  return broken.empty() ? ExitCode::kDone : ExitCode::kRequirementMissed;
+  std::fputs(tables ? report::verdict_text(found).c_str() : report::stability_json(found).c_str(), stdout);
+  if (tables && !json_.empty()) report::write_text_file(json_, report::stability_json(found));
+  return found.broken().empty() ? ExitCode::kDone : ExitCode::kRequirementMissed;
 }
 
 }  // namespace rastertlm::cli

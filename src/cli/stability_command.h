@@ -17,12 +17,14 @@ class StabilityCommand : public Command {
   ExitCode run() override;
 
  private:
-  std::vector<std::string> machines_{"configs/machines/quadratic.toml", "configs/machines/imogene.toml"};
+  std::vector<std::string> machines_{"configs/machines/imogene.toml", "configs/machines/quadratic.toml",
+                                     "configs/machines/adaptive.toml"};
   std::string cases_ = "configs/hard_cases";
   std::vector<std::string> chosen_;  // none: all
   std::vector<std::string> overrides_;
   std::uint64_t seed_ = 1;
   std::int64_t tries_ = 0;  // 0: each case's own
+  std::string json_;        // a file, or - for standard output
 };
 
 }  // namespace rastertlm::cli

@@ -7,6 +7,7 @@
 namespace rastertlm::test {
 namespace {
 
+using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -15,6 +16,7 @@ using testing::Not;
 const std::string kConfigs = std::string(RASTERTLM_SOURCE_DIR) + "/configs";
 const std::string kQuadratic = kConfigs + "/machines/quadratic.toml";
 const std::string kImogene = kConfigs + "/machines/imogene.toml";
+const std::string kAdaptive = kConfigs + "/machines/adaptive.toml";
 
 class StabilityCommandTest : public ProgramTest {
  protected:
@@ -36,7 +38,7 @@ class StabilityCommandTest : public ProgramTest {
 };
 
 TEST_F(StabilityCommandTest, EveryBoundHoldsOnTheDefaultMachines) {
-  const Outcome outcome = stability({kQuadratic, kImogene, "--seed", "7"});
+  const Outcome outcome = stability({kQuadratic, kImogene, kAdaptive, "--seed", "7", "--tries", "20"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.err, IsEmpty());
   EXPECT_THAT(outcome.out, Not(HasSubstr("BROKEN")));
@@ -56,7 +58,7 @@ class PublishedVariants : public StabilityCommandTest, public testing::WithParam
 
 TEST_P(PublishedVariants, BreakAtTheStepThatThePapersHaveWrong) {
   const Outcome outcome =
-      stability({kConfigs + "/machines/" + GetParam().machine, "--set", GetParam().set, "--tries", "100"});
+      stability({kConfigs + "/machines/" + GetParam().machine, "--set", GetParam().set, "--tries", "40"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_EQ(broken_steps(outcome), std::set<std::string>{GetParam().step}) << outcome.out;
 }
@@ -80,6 +82,29 @@ TEST_F(StabilityCommandTest, SameSeedSameText) {
             stability({kQuadratic, "--case", "start_edge", "--tries", "20", "--seed", "4"}).out);
 }
 
+// For programs: the same findings, and the exit code says the verdict.
+TEST_F(StabilityCommandTest, JsonHasWhatTheTablesHave) {
+  const std::vector<std::string> arguments{kImogene, "--case", "adder_carries", "--tries", "4"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), arguments.begin(), arguments.end());
+    return stability(more);
+  };
+  const Outcome both = with({"--json", "found.json"});
+  EXPECT_EQ(both.out, stability(arguments).out);
+  const Outcome alone = with({"--json", "-"});
+  EXPECT_EQ(alone.exit_code, 0);
+  EXPECT_EQ(alone.out, file_text(in_work("found.json")));
+  for (const std::string part : {"\"schema\": 1", "\"kind\": \"stability\"", "\"bounds\": 1", "\"broken\": []",
+                                 "\"case\": \"adder_carries\"", "\"step\": \"ep1.carry_clock\"", "\"measured\": 0",
+                                 "\"bound\": 0", "\"bound_kind\": \"proved\"", "\"holds\": true"})
+    EXPECT_THAT(alone.out, HasSubstr(part));
+  const Outcome late = with({"--json", "-", "--set", "ep1.carry_clock=clock2"});
+  EXPECT_EQ(late.exit_code, 1);
+  EXPECT_THAT(late.out, HasSubstr(kImogene + ": adder_carries: ep1.carry_clock\""));
+  EXPECT_THAT(late.out, HasSubstr("\"holds\": false"));
+  EXPECT_EQ(with({"--json", "no/such/folder/found.json"}).exit_code, 4);
+}
+
 TEST_F(StabilityCommandTest, RefusesWhatItDoesNotKnow) {
   const Outcome outcome = stability({kQuadratic, "--case", "start_egde"});
   EXPECT_EQ(outcome.exit_code, 2);
@@ -88,6 +113,11 @@ TEST_F(StabilityCommandTest, RefusesWhatItDoesNotKnow) {
   const Outcome misspelt = run({"stability", kQuadratic, "--cases", "cases"});
   EXPECT_EQ(misspelt.exit_code, 2);
   EXPECT_THAT(misspelt.err, HasSubstr("cases/one.toml:4: tires"));
+  write("cases/one.toml", "schema = 1\nstresses = \"x\"\nkind = \"start_egde\"\nsteps = 3\n");
+  EXPECT_THAT(run({"stability", kQuadratic, "--cases", "cases"}).err,
+              AllOf(HasSubstr("cases/one.toml:3: kind"), Not(HasSubstr("steps"))));
+  write("cases/one.toml", "schema = 1\nstresses = \"x\"\nsteps = 3\n");
+  EXPECT_THAT(run({"stability", kQuadratic, "--cases", "cases"}).err, HasSubstr("kind"));
   EXPECT_EQ(run({"stability", kQuadratic, "--cases", "nowhere"}).exit_code, 2);
   EXPECT_EQ(stability({kQuadratic, "--tries", "0"}).exit_code, 2);
 }

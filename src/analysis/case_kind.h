@@ -1,0 +1,59 @@
+// The kinds of hard case: which step of a machine each measures, what its files may say, and how. A kind is a class of
+// its own beside a line in the table of case_kinds.cpp.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "modules/object_processor/triangle_processor.h"
+#include "modules/span_unit/span_words.h"
+#include "src/analysis/measurement.h"
+#include "src/base/errors.h"
+#include "src/parameter/table.h"
+#include "src/run/inputs.h"
+
+namespace rastertlm::analysis {
+
+// What is done on purpose to the words that go into a core, so that a test sees a bound break. Nothing is, by default.
+struct Tampering {
+  std::function<void(object_processor::TriangleWords&)> object_words;
+  std::function<void(span_unit::TriangleLoad&)> span_load;
+};
+
+// What a case is measured on.
+struct Trial {
+  const run::Inputs::Content& machine;
+  Numbers numbers;
+  std::optional<std::int64_t> tries = std::nullopt;  // random inputs, in place of the case's own
+  Tampering tampering = {};
+
+  std::int64_t tries_or(std::int64_t own) const { return tries.value_or(own); }
+  // Null where the machine is another.
+  const imogene::Machine* object_machine() const { return std::get_if<imogene::Machine>(&machine.machine); }
+  const quadratic::Machine* span_machine() const;  // quadratic or adaptive
+};
+
+class CaseKind {
+ public:
+  virtual ~CaseKind() = default;
+  // The keys of a file of this kind, beside those that every case has.
+  virtual void declare(parameter::Table& table) = 0;
+  // What no single range can say of them.
+  virtual void check(const std::string& /*file*/, Diagnostics& /*diagnostics*/) const {}
+  // The parameter of that machine which decides whether the bounds hold: "span_unit.start_edge".
+  virtual std::string step(const run::Inputs::Content& machine) const = 0;
+  // By the machine's own core. The same numbers, the same figures.
+  virtual Measured measure(Trial& trial) const = 0;
+};
+
+struct NamedKind {
+  const char* name;  // as the files have it
+  std::unique_ptr<CaseKind> (*make)();
+};
+const std::vector<NamedKind>& case_kinds();
+
+}  // namespace rastertlm::analysis

@@ -1,0 +1,26 @@
+#include "src/analysis/case_kinds.h"
+
+#include "src/analysis/case_kind.h"
+
+namespace rastertlm::analysis {
+
+const quadratic::Machine* Trial::span_machine() const {
+  if (const auto* found = std::get_if<quadratic::Machine>(&machine.machine)) return found;
+  return std::get_if<adaptive::Machine>(&machine.machine);
+}
+
+const std::vector<NamedKind>& case_kinds() {
+  static const std::vector<NamedKind> kinds{
+      {"forward_differences", forward_differences_case},
+      {"start_edge", start_edge_case},
+      {"quadratic_solver", quadratic_solver_case},
+      {"coverage", coverage_case},
+      {"triangles", triangles_case},
+      {"t_junctions", t_junctions_case},
+      {"projection", projection_case},
+      {"linear_form", linear_form_case},
+  };
+  return kinds;
+}
+
+}  // namespace rastertlm::analysis

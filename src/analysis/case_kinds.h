@@ -1,0 +1,19 @@
+// Makes a case of each kind; what it measures stands in the source that is named.
+#pragma once
+
+#include <memory>
+
+namespace rastertlm::analysis {
+
+class CaseKind;
+
+std::unique_ptr<CaseKind> forward_differences_case();  // stability_colours.cpp: a colour's registers, longest path
+std::unique_ptr<CaseKind> start_edge_case();           // stability_start_edge.cpp: the same over triangles
+std::unique_ptr<CaseKind> quadratic_solver_case();     // stability_solver.cpp: the solver of the six colours
+std::unique_ptr<CaseKind> coverage_case();             // stability_coverage.cpp: the pixels that a mesh covers
+std::unique_ptr<CaseKind> triangles_case();            // stability_triangles.cpp: the pixels of single triangles
+std::unique_ptr<CaseKind> t_junctions_case();          // stability_t_junctions.cpp: vertices on others' edges
+std::unique_ptr<CaseKind> projection_case();           // stability_projection.cpp: clipping, pixels, depths of a view
+std::unique_ptr<CaseKind> linear_form_case();          // stability_linear_form.cpp: the adders of EP1
+
+}  // namespace rastertlm::analysis
