@@ -1,6 +1,7 @@
 # Language, warnings and sanitizers: the same for every target.
 option(RASTERTLM_TESTS "Build the tests" ON)
 set(RASTERTLM_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize= (address,undefined or thread)")
+set(RASTERTLM_SANITIZE_WITHOUT "" CACHE STRING "Checks of these sanitizers to leave out, as for -fno-sanitize=")
 option(RASTERTLM_COVERAGE "Instrument for gcov" OFF)
 option(RASTERTLM_CCACHE "Compile through ccache where it is installed" ON)
 
@@ -23,6 +24,9 @@ target_include_directories(rastertlm_options INTERFACE "${CMAKE_SOURCE_DIR}")
 if(RASTERTLM_SANITIZE)
   target_compile_options(rastertlm_options INTERFACE -fsanitize=${RASTERTLM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(rastertlm_options INTERFACE -fsanitize=${RASTERTLM_SANITIZE})
+endif()
+if(RASTERTLM_SANITIZE AND RASTERTLM_SANITIZE_WITHOUT)
+  target_compile_options(rastertlm_options INTERFACE -fno-sanitize=${RASTERTLM_SANITIZE_WITHOUT})
 endif()
 if(RASTERTLM_COVERAGE)
   target_compile_options(rastertlm_options INTERFACE --coverage)

@@ -1,5 +1,6 @@
 #include "src/explore/runner.h"
 
+#include <malloc.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@
 namespace rastertlm::explore {
 namespace {
 
-constexpr std::size_t kAhead = 64;               // points that are made before a worker is free for them
+constexpr std::size_t kAhead = 16;               // points that are made before a worker is free for them
 constexpr std::size_t kLinkedAtOnce = 1000;      // points that had their result, a transaction
 constexpr std::uint64_t kMostPictured = 10'000;  // points: a picture of each is kept
 constexpr int kTick = 200;                       // ms: progress goes on
@@ -46,6 +47,15 @@ struct Running {
   Shared* renders = nullptr;
 };
 
+// A page that is written after a worker was forked is copied first: so what is freed is joined at once, not in passes
+// over the whole heap, and no memory is given back that the next point asks for again.
+void keep_heap_still() {
+  constexpr int kLarge = 1 << 30;
+  ::mallopt(M_MXFAST, 0);
+  ::mallopt(M_TRIM_THRESHOLD, kLarge);
+  ::mallopt(M_MMAP_THRESHOLD, kLarge);
+}
+
 class Runner {
  public:
   Runner(const Sweep& sweep, const Design& design, Store& store, const RunOptions& options)
@@ -57,6 +67,7 @@ class Runner {
   }
 
   RunStatus run(const std::function<void(const RunStatus&)>& progress) {
+    keep_heap_still();
     const StopSignals signals;
     sweep_id_ = store_.enter(sweep_, design_, maker_.sweep_digest());
     store_.complete_figures(figures_);
@@ -199,6 +210,7 @@ class Runner {
         if (!one->renders->ready) one->renders->pictures.reset();
       }
       const Job job = std::move(one->job);
+      ended_ = std::move(one->worker);
       one = running_.erase(one);
       record(job, std::move(result));
     }
@@ -260,6 +272,7 @@ class Runner {
   std::vector<std::string> figures_;
   std::deque<Job> ahead_;
   std::list<Running> running_;
+  std::unique_ptr<Worker> ended_;  // its process may still give back memory: waited for as the next one ends
   std::vector<std::pair<std::uint64_t, std::int64_t>> found_;
   std::set<std::string> scenes_;
   std::set<std::string> retried_;

@@ -29,7 +29,6 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 constexpr std::size_t kMostPrinted = 400;  // bytes of its last words that are kept
-constexpr char kWhole = 'w';               // ends a message that is whole
 
 template <class T>
 void put(std::string& message, const T& number) {
@@ -64,8 +63,17 @@ class Unpacker {
   std::size_t at_ = 0;
 };
 
+// A message begins with its size: one that ends early is none.
+bool is_whole(const std::string& message) {
+  std::uint64_t size = 0;
+  if (message.size() < sizeof size) return false;
+  std::memcpy(&size, message.data(), sizeof size);
+  return message.size() == size;
+}
+
 std::string packed(const PointResult& result) {
   std::string message;
+  put(message, std::uint64_t{0});
   put(message, static_cast<char>(result.state == State::done ? 1 : 0));
   put(message, result.error);
   put(message, result.seconds);
@@ -79,13 +87,15 @@ std::string packed(const PointResult& result) {
     put(message, static_cast<char>(value ? 1 : 0));
     put(message, value.value_or(0.0));
   }
-  message += kWhole;
+  const std::uint64_t size = message.size();
+  std::memcpy(message.data(), &size, sizeof size);
   return message;
 }
 
 PointResult unpacked(const std::string& message) {
   Unpacker unpacker(message);
   PointResult result;
+  unpacker.number<std::uint64_t>();  // the size
   result.state = unpacker.number<char>() == 1 ? State::done : State::failed;
   result.error = unpacker.text();
   result.seconds = unpacker.number<double>();
@@ -196,7 +206,19 @@ void* keep_memory() {
     message = message_of(work);  // no thread is to be had: as well without, if slower
   }
   write_all(pipe, message);
+  ::close(pipe);  // who reads need not wait until all memory is given back
   ::_exit(0);
+}
+
+// Where pieces of messages arrive: memory that no worker inherits, so that it need not be copied to be written again.
+char* inbox() {
+  static char* const place = [] {
+    void* const memory = ::mmap(nullptr, kPiece, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    ::madvise(memory, kPiece, MADV_DONTFORK);
+    return static_cast<char*>(memory);
+  }();
+  return place;
 }
 
 std::string last_words(int descriptor) {
@@ -238,20 +260,18 @@ Worker::~Worker() {
 }
 
 bool Worker::read() {
-  std::array<char, kPiece> piece;
-  const ssize_t count = ::read(pipe_, piece.data(), piece.size());
+  const ssize_t count = ::read(pipe_, inbox(), kPiece);
   if (count < 0) return errno != EINTR && errno != EAGAIN;
-  received_.append(piece.data(), static_cast<std::size_t>(count));
+  received_.append(inbox(), static_cast<std::size_t>(count));
   return count == 0;
 }
 
 PointResult Worker::result() {
+  if (is_whole(received_)) return unpacked(received_);
   int status = 0;
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
   process_ = -1;
-  const bool whole = !received_.empty() && received_.back() == kWhole && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (whole) return unpacked(received_);
   PointResult failed;
   failed.state = State::failed;
   failed.error = ending(status);
