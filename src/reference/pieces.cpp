@@ -44,24 +44,50 @@ bool any_needs_guard_band(const scene::Scene& scene, const Vertices& vertices, c
 
 int sign(double x) { return x > 0.0 ? 1 : (x < 0.0 ? -1 : 0); }
 
+int area_sign(const Piece& piece, bool by_snapped) {
+  if (by_snapped) {
+    const std::int64_t area = geometry::doubled_area(piece.snapped[0], piece.snapped[1], piece.snapped[2]);
+    return area > 0 ? 1 : (area < 0 ? -1 : 0);
+  }
+  const auto& [a, b, c] = piece.corners;
+  return sign((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
+}
+
+// False where the piece is not seen.
+bool turn_to_viewer(Piece& piece, bool two_sided, bool by_snapped) {
+  const int area = area_sign(piece, by_snapped);
+  if (area == 0) return false;
+  const bool front = geometry::faces_viewer(area);
+  if (!front && !two_sided) return false;
+  if (front) {  // counter-clockwise as seen: turned round
+    std::swap(piece.corners[1], piece.corners[2]);
+    std::swap(piece.snapped[1], piece.snapped[2]);
+    std::swap(piece.eye_positions[1], piece.eye_positions[2]);
+  } else {
+    for (auto& corner : piece.corners) corner.normal = -corner.normal;
+  }
+  return true;
+}
+
+// Hands on what is cut of each triangle, in their order.
 class Assembler {
  public:
-  Assembler(const scene::Pose& pose, const RenderOptions& options, const geometry::FrameGrid& grid,
-            std::vector<Piece>& out)
+  Assembler(const scene::Pose& pose, const RenderOptions& options, const geometry::FrameGrid& grid, bool snaps)
       : options_(options),
         viewport_{options.columns, options.lines},
         grid_(grid),
         clip_to_eye_(glm::inverse(pose.eye_to_clip)),
-        out_(out) {}
+        snaps_(snaps) {}
 
-  void add(const ClipTriangle<double>& triangle, std::uint32_t number, std::uint16_t material, bool two_sided) {
+  template <class Take>
+  void add(const ClipTriangle<double>& triangle, std::uint32_t number, std::uint16_t material, const Take& take) const {
     const Polygon<double> polygon = drawn_polygon(triangle);
     for (std::size_t k = 1; k + 1 < polygon.size; ++k) {
       Piece piece;
       piece.object = number;
       piece.material = material;
-      const ClipTriangle<double> corners{polygon.corners[0], polygon.corners[k], polygon.corners[k + 1]};
-      if (place(piece, corners, two_sided)) out_.push_back(piece);
+      place(piece, {polygon.corners[0], polygon.corners[k], polygon.corners[k + 1]});
+      take(piece);
     }
   }
 
@@ -74,36 +100,13 @@ class Assembler {
     return polygon;
   }
 
-  // False where the piece is not drawn.
-  bool place(Piece& piece, const ClipTriangle<double>& corners, bool two_sided) const {
+  void place(Piece& piece, const ClipTriangle<double>& corners) const {
     for (std::size_t i = 0; i < 3; ++i) {
       piece.corners[i] = geometry::to_screen(corners[i], viewport_);
-      if (options_.kind == Reference::snapped)
-        piece.snapped[i] = geometry::snap(piece.corners[i], grid_.grid.fraction_bits);
+      if (snaps_) piece.snapped[i] = geometry::snap(piece.corners[i], grid_.grid.fraction_bits);
       if (options_.kind == Reference::true_model || options_.lights_at_points)
         piece.eye_positions[i] = eye_position(corners[i]);
     }
-    const int area = area_sign(piece);
-    if (area == 0) return false;
-    const bool front = geometry::faces_viewer(area);
-    if (!front && !two_sided) return false;
-    if (front) {  // counter-clockwise as seen: turned round
-      std::swap(piece.corners[1], piece.corners[2]);
-      std::swap(piece.snapped[1], piece.snapped[2]);
-      std::swap(piece.eye_positions[1], piece.eye_positions[2]);
-    } else {
-      for (auto& corner : piece.corners) corner.normal = -corner.normal;
-    }
-    return true;
-  }
-
-  int area_sign(const Piece& piece) const {
-    if (options_.kind == Reference::snapped) {
-      const std::int64_t area = geometry::doubled_area(piece.snapped[0], piece.snapped[1], piece.snapped[2]);
-      return area > 0 ? 1 : (area < 0 ? -1 : 0);
-    }
-    const auto& [a, b, c] = piece.corners;
-    return sign((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
   }
 
   glm::dvec3 eye_position(const ClipVertex<double>& vertex) const {
@@ -115,25 +118,51 @@ class Assembler {
   Viewport viewport_;
   geometry::FrameGrid grid_;
   glm::dmat4 clip_to_eye_;
-  std::vector<Piece>& out_;
+  bool snaps_;
 };
 
-}  // namespace
-
-Pieces pieces(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options) {
+// Calls take(piece, two_sided) for everything that is cut of the frame's triangles; gives their grid.
+template <class Take>
+geometry::FrameGrid cut_all(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options,
+                            bool snaps, const Take& take) {
   const Viewport viewport{options.columns, options.lines};
   const Vertices vertices = clip_vertices(scene, pose);
-  Pieces result;
-  result.grid = geometry::frame_grid(options.grids, any_needs_guard_band(scene, vertices, options, viewport), viewport);
-  Assembler assembler(pose, options, result.grid, result.list);
+  const geometry::FrameGrid grid =
+      geometry::frame_grid(options.grids, any_needs_guard_band(scene, vertices, options, viewport), viewport);
+  const Assembler assembler(pose, options, grid, snaps);
   std::uint32_t number = 0;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Mesh& mesh = scene.objects[o].mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       assembler.add(triangle_of(vertices[o], mesh.triangles[t]), ++number, mesh.material[t],
-                    scene.objects[o].two_sided);
+                    [&](Piece& piece) { take(piece, scene.objects[o].two_sided); });
   }
+  return grid;
+}
+
+}  // namespace
+
+Pieces pieces(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options) {
+  const bool snaps = options.kind == Reference::snapped;
+  Pieces result;
+  result.grid = cut_all(scene, pose, options, snaps, [&](Piece& piece, bool two_sided) {
+    if (turn_to_viewer(piece, two_sided, snaps)) result.list.push_back(piece);
+  });
   return result;
+}
+
+CutPieces cut_pieces(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options) {
+  CutPieces result;
+  result.grid = cut_all(scene, pose, options, true, [&](const Piece& piece, bool two_sided) {
+    result.list.push_back({piece, two_sided});
+  });
+  return result;
+}
+
+std::optional<Piece> as_seen(const CutPiece& cut, bool by_snapped) {
+  Piece piece = cut.piece;
+  if (!turn_to_viewer(piece, cut.two_sided, by_snapped)) return std::nullopt;
+  return piece;
 }
 
 }  // namespace rastertlm::reference

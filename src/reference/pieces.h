@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "src/geometry/frame_grid.h"
@@ -26,5 +27,21 @@ struct Pieces {
 };
 
 Pieces pieces(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options);
+
+// A piece before it is known whether it is seen, for who compares how a machine and the exact picture decide that:
+// corners in the order of their triangle, normals as they come; `snapped` is set whatever the kind.
+struct CutPiece {
+  Piece piece;
+  bool two_sided = false;
+};
+struct CutPieces {
+  std::vector<CutPiece> list;  // likewise; those of pieces(), in its order, and those that it leaves out
+  geometry::FrameGrid grid;
+};
+CutPieces cut_pieces(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options);
+
+// As it is seen, decided on the snapped corners or on those that are not; nothing where it faces away and is not
+// two-sided, or has no area.
+std::optional<Piece> as_seen(const CutPiece& cut, bool by_snapped);
 
 }  // namespace rastertlm::reference

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "src/base/errors.h"
-#include "src/geometry/lighting.h"
 #include "src/reference/coverage.h"
+#include "src/reference/piece_light.h"
 #include "src/reference/pieces.h"
 
 namespace rastertlm::reference {
 namespace {
-
-using geometry::LightSource;
-using geometry::Reflectance;
 
 // What is seen at a pixel, kept until every piece is drawn: only that is shaded.
 struct Seen {
@@ -25,11 +20,6 @@ struct Seen {
 };
 
 double interpolated(double a, double b, double c, const std::array<double, 2>& weights) {
-  return a + weights[0] * (b - a) + weights[1] * (c - a);
-}
-
-glm::dvec3 interpolated(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
-                        const std::array<double, 2>& weights) {
   return a + weights[0] * (b - a) + weights[1] * (c - a);
 }
 
@@ -69,62 +59,6 @@ void draw(const Piece& piece, std::uint32_t index, const Coverage<N>& coverage, 
   }
 }
 
-class Shader {
- public:
-  Shader(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options) : kind_(options.kind) {
-    rules_ = {scene.model == scene::LightingModel::phong ? geometry::Model::phong : geometry::Model::blinn,
-              scene.specular_gate, scene.ambient_light};
-    viewer_at_eye_ = kind_ == Reference::true_model && scene.camera.projection == scene::ProjectionKind::perspective;
-    for (const scene::Material& m : scene.materials)
-      surfaces_.push_back({m.ambient * m.colour, m.diffuse * m.colour, glm::dvec3(m.specular), m.exponent});
-    for (const scene::Light& light : pose.lights) {
-      const bool at_point = light.kind == scene::LightKind::point;
-      any_at_point_ = any_at_point_ || at_point;
-      if (at_point && kind_ != Reference::true_model && !options.lights_at_points)
-        throw InputError(Diagnostic{
-            "", 0, "light.type", "a light at a point is not in the machine's model; only the true reference has it"});
-      const double mean = (light.intensity.x + light.intensity.y + light.intensity.z) / 3.0;
-      lights_.push_back(
-          {at_point, light.vector, light.intensity, options.specular_mean ? glm::dvec3(mean) : light.intensity});
-    }
-  }
-
-  // 0..255, not rounded.
-  glm::dvec3 levels(const Piece& piece, const std::array<double, 2>& on_screen) const {
-    glm::dvec3 viewer(0.0, 0.0, 1.0);
-    glm::dvec3 position(0.0);
-    std::array<double, 2> weights = on_screen;
-    if (kind_ == Reference::true_model) weights = on_surface(piece, on_screen);
-    if (kind_ == Reference::true_model || any_at_point_) {
-      position = interpolated(piece.eye_positions[0], piece.eye_positions[1], piece.eye_positions[2], weights);
-      if (viewer_at_eye_) viewer = geometry::normalised<double>(-position);
-    }
-    const auto& [a, b, c] = piece.corners;
-    const glm::dvec3 normal = geometry::normalised<double>(interpolated(a.normal, b.normal, c.normal, weights));
-    const glm::dvec3 light = geometry::illumination<double>(
-        surfaces_[piece.material], std::span<const LightSource>(lights_), rules_, normal, viewer, position);
-    return {std::clamp(255.0 * light.x, 0.0, 255.0), std::clamp(255.0 * light.y, 0.0, 255.0),
-            std::clamp(255.0 * light.z, 0.0, 255.0)};
-  }
-
- private:
-  // Weights that are linear on the screen, made linear on the surface: each times 1/w of its corner.
-  static std::array<double, 2> on_surface(const Piece& piece, const std::array<double, 2>& weights) {
-    const double first = (1.0 - weights[0] - weights[1]) * piece.corners[0].inverse_w;
-    const double second = weights[0] * piece.corners[1].inverse_w;
-    const double third = weights[1] * piece.corners[2].inverse_w;
-    const double sum = first + second + third;
-    return {second / sum, third / sum};
-  }
-
-  Reference kind_;
-  geometry::LightingRules rules_;
-  bool viewer_at_eye_ = false;
-  bool any_at_point_ = false;
-  std::vector<Reflectance> surfaces_;
-  std::vector<LightSource> lights_;
-};
-
 }  // namespace
 
 std::string to_string(Reference reference) {
@@ -140,7 +74,7 @@ std::string to_string(Reference reference) {
 }
 
 frame::ExactFrame render(const scene::Scene& scene, const scene::Pose& pose, const RenderOptions& options) {
-  const Shader shader(scene, pose, options);
+  const PieceLight light(scene, pose, options);
   const Pieces drawn = pieces(scene, pose, options);
   frame::ExactFrame out;
   out.resize(options.columns, options.lines);
@@ -156,7 +90,7 @@ frame::ExactFrame render(const scene::Scene& scene, const scene::Pose& pose, con
   for (std::size_t pixel = 0; pixel < out.pixels(); ++pixel) {
     const Seen& here = seen[pixel];
     const glm::dvec3 levels =
-        here.piece == 0 ? scene.background : shader.levels(drawn.list[here.piece - 1], here.weights);
+        here.piece == 0 ? scene.background : light.levels(drawn.list[here.piece - 1], here.weights);
     for (int c = 0; c < 3; ++c) out.rgb[3 * pixel + static_cast<std::size_t>(c)] = levels[c];
   }
   return out;
