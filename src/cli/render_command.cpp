@@ -5,7 +5,9 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
+#include "src/analysis/blame.h"
 #include "src/cli/progress.h"
 #include "src/cli/usage.h"
 #include "src/report/error_section.h"
@@ -20,10 +22,19 @@ namespace {
 
 // The frames go to their files as they are shown; an error of writing one is the error of the run, whatever became of
 // it on its way through the simulation.
-run::Result simulate(const run::Inputs& inputs, const run::Options& options, report::ResultWriter& writer) {
+// `blame`, where asked for, gets what made each frame's pixels wrong.
+run::Result simulate(const run::Inputs& inputs, const run::Options& options, report::ResultWriter& writer,
+                     report::BlameContents* blame) {
   Progress progress(options.frames);
+  const auto labels = [&](const run::FramePixels& pixels) -> std::optional<report::LabelledPicture> {
+    if (blame == nullptr) return std::nullopt;
+    analysis::FrameBlame found = analysis::blame(inputs, pixels);
+    blame->frames.push_back(found.figures);
+    return report::LabelledPicture{"blame.step", report::blame_name(pixels.figures.frame), std::move(found.step),
+                                   blame->legend};
+  };
   const auto sink = [&](const run::FramePixels& pixels) {
-    writer.write_frame(pixels);
+    writer.write_frame(pixels, [&] { return labels(pixels); });
     progress.frame_done();
   };
   try {
@@ -79,6 +90,7 @@ void RenderCommand::declare(CLI::App& app) {
                "simulate also what the scene does not need: of the figures, modelled alone changes");
   app.add_flag("--host-figures", host_figures_, "report time and memory of the simulation itself");
   app.add_flag("--no-reference", no_reference_, "do not render the exact pictures, measure no error");
+  app.add_flag("--blame", blame_, "find the step that made each wrong pixel wrong: a table, a channel and a picture");
   validated(app.add_option("--timeline-frames", timeline_frames_, "write timeline.json, of these displayed frames")
                 ->type_name("A..B"),
             dotted_range);
@@ -108,12 +120,17 @@ std::string RenderCommand::output_directory() const {
 ExitCode RenderCommand::run() {
   if (require_psnr_ > 0.0 && no_reference_)
     throw InputError(Diagnostic{"--require-psnr", 0, "", "nothing is measured with --no-reference"});
+  if (blame_ && no_reference_)
+    throw InputError(Diagnostic{"--blame", 0, "", "nothing is compared with --no-reference"});
   report::OutputDirectory::remove_on_signals();
   const run::Inputs inputs = run::read_inputs(machine_, scene_, overrides_);
   report::OutputDirectory directory(output_directory());
   report::ResultWriter writer(directory);
+  report::BlameContents blame;
+  if (blame_) blame.legend = analysis::blame_legend();
+  run::Result result = simulate(inputs, run_options(), writer, blame_ ? &blame : nullptr);
   const report::Contents contents =
-      writer.write_reports({simulate(inputs, run_options(), writer), host_figures_}, run::resolved_machine_toml(inputs),
+      writer.write_reports({std::move(result), host_figures_, std::move(blame)}, run::resolved_machine_toml(inputs),
                            run::resolved_scene_toml(inputs));
   directory.commit();
   print_summary(contents.result, output_directory(), !timeline_frames_.empty() || !timeline_lines_.empty());

@@ -27,6 +27,7 @@ class RenderCommand : public Command {
   bool model_everything_ = false;
   bool host_figures_ = false;
   bool no_reference_ = false;
+  bool blame_ = false;
 
   std::string timeline_frames_;
   std::string timeline_lines_;

@@ -20,7 +20,8 @@ void add_interleaved(std::vector<Channel>& channels, const std::vector<std::stri
 
 }  // namespace
 
-void write_exr_frame(const std::string& path, const frame::Frame& shown, const frame::ExactFrame* ideal) {
+void write_exr_frame(const std::string& path, const frame::Frame& shown, const frame::ExactFrame* ideal,
+                     const LabelledPicture* labels) {
   const std::size_t values = shown.rgb.size();
   std::vector<float> colour(values);
   for (std::size_t i = 0; i < values; ++i) colour[i] = static_cast<float>(shown.rgb[i] / kLevels);
@@ -47,6 +48,7 @@ void write_exr_frame(const std::string& path, const frame::Frame& shown, const f
     add_interleaved(channels, {"reference.R", "reference.G", "reference.B"}, exact);
     add_interleaved(channels, {"error.R", "error.G", "error.B"}, error);
   }
+  if (labels != nullptr) channels.push_back({labels->channel, ChannelType::u32, labels->values.data(), 0});
   image::write_exr(path, shown.columns, shown.lines, channels);
 }
 

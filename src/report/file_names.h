@@ -19,5 +19,6 @@ inline constexpr const char* kResolvedScene = "scene.resolved.toml";
 std::string picture_name(std::uint64_t frame);   // frame_0000.png
 std::string channels_name(std::uint64_t frame);  // frame_0000.exr
 std::string error_name(std::uint64_t frame);     // error_0000.png
+std::string blame_name(std::uint64_t frame);     // blame_0000.png
 
 }  // namespace rastertlm::report

@@ -16,12 +16,15 @@
 
 namespace rastertlm::report {
 
-void ResultWriter::write_frame(const run::FramePixels& pixels) {
+void ResultWriter::write_frame(const run::FramePixels& pixels,
+                               const std::function<std::optional<LabelledPicture>()>& labels) {
   try {
+    const std::optional<LabelledPicture> labelled = labels();
     const std::uint64_t frame = pixels.figures.frame;
     const frame::Frame& shown = pixels.shown;
     image::write_png(directory_.path(picture_name(frame)), shown.columns, shown.lines, shown.rgb);
-    write_exr_frame(directory_.path(channels_name(frame)), shown, pixels.ideal);
+    write_exr_frame(directory_.path(channels_name(frame)), shown, pixels.ideal, labelled ? &*labelled : nullptr);
+    if (labelled) image::write_png(directory_.path(labelled->file), shown.columns, shown.lines, painted(*labelled));
     if (pixels.ideal != nullptr)
       image::write_png(directory_.path(error_name(frame)), shown.columns, shown.lines,
                        error_image(shown, *pixels.ideal));

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <exception>
+#include <functional>
+#include <optional>
 #include <string>
 
+#include "src/report/labelled_picture.h"
 #include "src/report/output_directory.h"
 #include "src/report/schema.h"
 #include "src/run/result.h"
@@ -16,7 +19,11 @@ class ResultWriter {
 
   // The files of a frame: picture, channels, and error where there is a reference. What it throws is kept as well, for
   // a simulation kernel between here and who asked for the frames may turn it into an error of its own.
-  void write_frame(const run::FramePixels& pixels);
+  void write_frame(const run::FramePixels& pixels) {
+    write_frame(pixels, [] { return std::nullopt; });
+  }
+  // `labels`, if it gives any, become a channel and a picture more; it may throw likewise.
+  void write_frame(const run::FramePixels& pixels, const std::function<std::optional<LabelledPicture>()>& labels);
   // Throws what write_frame() threw, if anything.
   void rethrow() const;
 

@@ -77,6 +77,8 @@ Json pictures_of(const run::Result& result, const FileOfRun& file) {
     Json picture{{"frame", number}, {"why", frame.why}, {"shown", base64(*shown)}};
     if (const std::vector<std::uint8_t> exact = exact_png(file(channels_name(number))); !exact.empty())
       picture["exact"] = base64(exact);
+    if (const std::optional<std::string> blame = read_text_file(file(blame_name(number))))
+      picture["blame"] = base64(*blame);
     const std::size_t size = picture.dump().size();
     if (!pictures.empty() && bytes + size > kMostPictureBytes) continue;
     bytes += size;

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <string>
 
-#include "src/parameter/statistic.h"
+#include "src/report/blame_schema.h"
 #include "src/report/file_names.h"
 #include "src/run/result.h"
 
@@ -21,23 +21,14 @@ namespace rastertlm::report {
 
 inline constexpr std::int64_t kSchema = 1;
 
-struct Field {
-  const char* unit;
-  parameter::StatisticKind kind;
-  const char* description;
-};
-
 // What report.json holds.
 struct Contents {
   run::Result result;
   bool host_figures = false;  // the section "host" is there
+  BlameContents blame = {};
 };
 
 namespace schema {
-
-inline constexpr auto kCount = parameter::StatisticKind::count;
-inline constexpr auto kFormula = parameter::StatisticKind::formula;
-inline constexpr auto kSetting = parameter::StatisticKind::setting;
 
 // Of which kinds of machine a section speaks: of both where only described.
 struct Kinds {
@@ -414,6 +405,7 @@ void visit(Visitor& v, Contents& contents) {
   v.list("images", "the displayed frames", r.frames,
          [&](Visitor& inner, run::FrameFigures& frame) { visit(inner, frame, kinds); });
   v.object("modelled", "what was simulated", [&](Visitor& o) { visit(o, r.modelled, kinds); });
+  visit_blame(v, contents.blame);
   v.texts("warnings", {"", kFormula, "what may not be meant"}, r.warnings);
   v.optional_object("host", "of the simulation itself; only with --host-figures", contents.host_figures,
                     [&](Visitor& o) { visit(o, r.host); });

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/report/blame_section.h"
 #include "src/report/error_image.h"
 #include "src/report/error_section.h"
 #include "src/report/merged_rows.h"
@@ -319,6 +320,7 @@ std::string text_report(const Contents& contents) {
   if (has_boards(result)) text += deadlines_section(result);
   text += links_section(result);
   text += error_section(result);
+  text += blame_section(contents.blame);
   text += memory_section(result);
   text += pictures_section(result);
   text += modelled_section(result);

@@ -20,8 +20,8 @@ class PagesTest : public ProgramTest {
 };
 
 TEST_F(PagesTest, RunOfTheObjectMachine) {
-  const Outcome outcome =
-      run({"render", config("machines/imogene.toml"), config("scenes/teapot.toml"), "--frames", "2", "--out", "o"});
+  const Outcome outcome = run({"render", config("machines/imogene.toml"), config("scenes/teapot.toml"), "--frames", "2",
+                               "--blame", "--out", "o"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_LT(std::filesystem::file_size(in_work("o/report.html")), kMostBytesOfARun);
   expect_good_page("o", "run_imogene");

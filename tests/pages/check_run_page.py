@@ -73,6 +73,24 @@ def check_configuration(browser, checks):
     checks.true(len(changed) < len(rows), "there are defaults")
 
 
+def check_blame(browser, checks, report, blamed):
+    columns, lines, colour = blamed
+    rows = table_of(browser, "What made pixels wrong")
+    steps = [(frame, step) for frame in report["blame"]["frames"] for step in frame["steps"]]
+    checks.equal([row[:3] for row in rows[1:]],
+                 [[str(frame["frame"]), " " + step["step"], f"{step['blamed_pixels']:,}"] for frame, step in steps], "blamed steps")
+    browser.evaluate("""for (const box of document.querySelectorAll('select'))
+      if ([...box.options].some((option) => option.value === 'blame')) { box.value = 'blame'; box.dispatchEvent(new Event('change')); }""")
+    for x, y in [(x * (columns - 1) // 6, y * (lines - 1) // 6) for x in range(7) for y in range(7)]:
+        checks.equal(pixel(browser, x, y), colour(x, y), f"the blamed step at {x}, {y}")
+    named = {entry["colour"]: entry["name"] for entry in report["blame"]["legend"]}
+    left, top, width, height = place_of(browser, "#compare")
+    x, y = columns // 2, lines // 2
+    browser.point(left + (x + 0.5) * width / columns, top + (y + 0.5) * height / lines)
+    told = browser.evaluate("document.getElementById('pixel-values').textContent")
+    checks.true(f"Blamed here: {named['#%02x%02x%02x' % tuple(colour(x, y))]}." in told, "the step under the pointer")
+
+
 def main():
     directory, artefacts, name = sys.argv[1:4]
     page = os.path.join(directory, "report.html")
@@ -87,6 +105,8 @@ def main():
         check_charts(browser, checks, report)
         check_pictures(browser, checks, read_png(os.path.join(directory, "frame_0000.png")), read_png(os.path.join(directory, "error_0000.png")))
         check_configuration(browser, checks)
+        if "blame" in report:
+            check_blame(browser, checks, report, read_png(os.path.join(directory, "blame_0000.png")))
         checks.equal(browser.evaluate("typeof window.intruder"), "undefined", "a script in a name")
         browser.open(page)
         leave_pictures(browser, checks, page, artefacts, name)

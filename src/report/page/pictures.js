@@ -3,7 +3,7 @@
 
 const zoomRadius = 4;  // pixels about the chosen one
 const zoomCell = 64;   // of the zoom's canvas
-const names = {shown: 'frame', exact: 'exact frame', error: 'error map'};
+const names = {shown: 'frame', exact: 'exact frame', error: 'error map', blame: 'blamed steps'};
 
 // Levels as they are stored: no colour management, no alpha.
 async function pixelsOf(base64) {
@@ -23,6 +23,12 @@ function errorPixels(shown, exact, amplification) {
   canvas.getContext('2d').putImageData(image, 0, 0);
   return {canvas, width: shown.width, height: shown.height, levels: image.data};
 }
+
+// The legend's entry of a colour.
+const blamedStep = (levels) => {
+  const colour = '#' + levels.map((level) => level.toString(16).padStart(2, '0')).join('');
+  return page.report.blame.legend.find((entry) => entry.colour === colour);
+};
 
 const valuesAt = (pixels, x, y) => Array.from(pixels.levels.subarray(4 * (y * pixels.width + x), 4 * (y * pixels.width + x) + 3));
 
@@ -47,6 +53,7 @@ class PictureView {
   async load(picture) {
     this.pixels = {shown: await pixelsOf(picture.shown)};
     if (picture.exact) this.pixels.exact = await pixelsOf(picture.exact);
+    if (picture.blame) this.pixels.blame = await pixelsOf(picture.blame);
     if (!this.pixels.exact) this.right = this.left = 'shown';
     const {width, height} = this.pixels.shown;
     this.canvas.width = width;
@@ -123,7 +130,7 @@ class PictureView {
     context.fillStyle = `rgb(${levels.join(',')})`;
     context.fillRect(left, top, zoomCell, zoomCell);
     context.fillStyle = 0.3 * levels[0] + 0.59 * levels[1] + 0.11 * levels[2] > 127 ? '#000' : '#fff';
-    const told = kind === 'error' ? this.difference(x, y).map(Math.abs) : levels;
+    const told = kind === 'blame' ? [blamedStep(levels).value] : kind === 'error' ? this.difference(x, y).map(Math.abs) : levels;
     told.forEach((level, channel) => context.fillText(String(level), left + zoomCell / 2, top + 19 + 18 * channel));
   }
 
@@ -139,7 +146,9 @@ class PictureView {
       rows.push(['exact', ...valuesAt(exact, this.x, this.y).map(String)]);
       rows.push(['difference', ...this.difference(this.x, this.y).map(String)]);
     }
-    this.values.replaceChildren(note(`Column ${this.x}, line ${this.y}; the zoom shows the ${names[kind]}${kind === 'error' ? ', with differences in levels' : ''}.`), table(['levels', '>R', '>G', '>B'], rows));
+    const blamed = this.pixels.blame ? ` Blamed here: ${blamedStep(valuesAt(this.pixels.blame, this.x, this.y)).name}.` : '';
+    const shows = {error: ', with differences in levels', blame: ', with their numbers'}[kind] || '';
+    this.values.replaceChildren(note(`Column ${this.x}, line ${this.y}; the zoom shows the ${names[kind]}${shows}.${blamed}`), table(['levels', '>R', '>G', '>B'], rows));
   }
 }
 

@@ -232,6 +232,34 @@ function errorSection() {
               .map(([name, meaning]) => `${name}: ${meaning}`).join('; ') + '.'));
 }
 
+function swatch(colour) {
+  const made = element('span', {class: 'swatch'});
+  made.style.backgroundColor = colour;
+  return made;
+}
+
+function blameSection() {
+  if (report.blame === undefined) return;
+  const share = (fraction) => (100 * fraction).toFixed(1).replace(/^-0\.0$/, '0.0') + ' %';
+  const entry = (name) => report.blame.legend.find((one) => one.name === name);
+  const named = (name) => element('span', {}, swatch(entry(name).colour), ' ' + name);
+  const others = report.blame.legend.filter((one) => !report.blame.frames[0].steps.some((step) => step.step === one.name));
+  section('What made pixels wrong',
+      table(['>frame', 'step', '>pixels', '>largest', '>removes', '>left: largest', '>RMSE', '>alone', '>alone: largest', '>99.9 %', '>mean', '>interaction', '>of worst'],
+          report.blame.frames.flatMap((frame) => frame.steps.map((step) => [
+            String(frame.frame), named(step.step), grouped(step.blamed_pixels), grouped(step.blamed_max_level), share(step.removed_share),
+            grouped(step.left_max_level), quantity(step.left_rmse_level), share(step.alone_share), quantity(step.alone_max_level),
+            quantity(step.alone_p999_level), quantity(step.alone_mean_level), share(step.interaction_share), quantity(step.of_largest_level),
+          ])), {tall: true}),
+      element('ul', {}, report.blame.frames.map((frame) => element('li', {},
+          `Frame ${frame.frame}: ${grouped(frame.wrong)} of ${grouped(frame.pixels)} pixels are wrong; ${share(frame.interaction_share)} of the squares are no ` +
+          `step's alone; ${grouped(frame.other_words)} pixels show words of another pose. Worst, where the right triangle is seen: ` +
+          `${quantity(frame.largest_level)} levels at column ${frame.largest_column}, line ${frame.largest_line}.`))),
+      note('Shares are of the squares of the differences from the ideal picture, levels not rounded. Removes: what goes where the step alone is made ' +
+          'exact. Alone: what it makes where all others are. Interaction: the difference of both.'),
+      element('p', {class: 'note'}, 'In the picture also: ', others.map((one) => element('span', {}, swatch(one.colour), ` ${one.name}: ${one.meaning}. `))));
+}
+
 function hardwareSection() {
   const total = report.memories.reduce((sum, memory) => sum + memory.total_bits, 0);
   section('Memory and logic that the machine has',
@@ -307,6 +335,7 @@ picturesSection().then(() => {
   linksSection();
   slackSection();
   errorSection();
+  blameSection();
   hardwareSection();
   configurationSection();
   modelledSection();

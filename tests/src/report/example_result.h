@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "src/report/blame_figures.h"
 #include "src/run/result.h"
 
 namespace rastertlm::report {
@@ -99,6 +100,26 @@ inline run::Result example_result() {
   r.warnings = {"Nothing moves."};
   r.host = {1.25, 266'666.4, 123'456'789};
   return r;
+}
+
+inline BlameContents example_blame() {
+  FrameBlameFigures f;
+  f.frame = 1;
+  f.pixels = 52'000;
+  f.wrong = 5'200;
+  f.other_words = 3;
+  f.rmse_level = 0.4123456;
+  f.max_level = 9;
+  f.largest_level = 8.75;
+  f.largest_column = 17;
+  f.largest_line = 18;
+  f.interaction_share = -0.125;
+  f.steps = {{"coverage", 12, 9, 0.5, 4, 0.25, 0.4, 0.1, 200.5, 0.5, 0.01, 0.0},
+             {"dot product", 5'185, 7, 0.25, 3, 0.125, 0.725, -0.475, 6.5, 2.25, 0.11, 8.75}};
+  return {{{0, "right", "as it should be", "#000000"},
+           {1, "coverage", "the edges", "#ffffff"},
+           {6, "dot product", "the sum", "#d53c00"}},
+          {f}};
 }
 
 }  // namespace rastertlm::report

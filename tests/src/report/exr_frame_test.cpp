@@ -70,5 +70,19 @@ TEST_F(ExrFrameTest, HasNoReferenceChannelsWithoutOne) {
                                                     "coverage.count"}));
 }
 
+TEST_F(ExrFrameTest, HasAChannelOfLabelsAsIntegers) {
+  const LabelledPicture labels{"blame.step", "", {0, 6}, {}};
+  write_exr_frame(path_, shown_, &exact_, &labels);
+  const image::Image image = image::read_image(path_);
+  ASSERT_NE(image.find("blame.step"), nullptr);
+  EXPECT_EQ(image.find("blame.step")->type, image::ChannelType::u32);
+  EXPECT_EQ(image.find("blame.step")->u32, (Words{0, 6}));
+}
+
+TEST(LabelledPicture, IsPaintedByItsLegend) {
+  const LabelledPicture picture{"", "", {6, 0, 9}, {{0, "", "", "#010203"}, {6, "", "", "#d53cff"}}};
+  EXPECT_EQ(painted(picture), (std::vector<std::uint8_t>{213, 60, 255, 1, 2, 3, 0, 0, 0}));
+}
+
 }  // namespace
 }  // namespace rastertlm::report

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json example_json(bool host = true) { return Json::parse(json_text({example_result(), host})); }
+Json example_json(bool host = true) { return Json::parse(json_text({example_result(), host, example_blame()})); }
 
 std::vector<std::string> keys_of(const Json& object) {
   std::vector<std::string> keys;
@@ -38,9 +38,10 @@ void add_paths(const Json& json, const std::string& path, std::set<std::string>&
 
 TEST(JsonReport, KeepsTheKeysOfSchema1InTheirOrder) {
   const Json json = example_json();
-  EXPECT_EQ(keys_of(json), (std::vector<std::string>{"schema", "platform", "config_digest", "scene_digest", "frames",
-                                                     "video", "answer", "units", "budgets", "deadlines", "links",
-                                                     "memories", "logic", "images", "modelled", "warnings", "host"}));
+  EXPECT_EQ(keys_of(json),
+            (std::vector<std::string>{"schema", "platform", "config_digest", "scene_digest", "frames", "video",
+                                      "answer", "units", "budgets", "deadlines", "links", "memories", "logic", "images",
+                                      "modelled", "blame", "warnings", "host"}));
   const auto has = [](const Json& object, const std::vector<std::string>& keys) {
     for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
   };
@@ -120,6 +121,18 @@ TEST(JsonReport, TellsOfTheHostOnlyWhenAsked) {
   EXPECT_TRUE(example_json(true).contains("host"));
   EXPECT_FALSE(example_json(false).contains("host"));
   EXPECT_EQ(json_text({example_result(), false}).find("wall"), std::string::npos);
+}
+
+TEST(JsonReport, HasTheBlameOnlyWhereItWasAsked) {
+  EXPECT_FALSE(Json::parse(json_text({example_result(), false})).contains("blame"));
+  const std::string text = json_text({example_result(), false, example_blame()});
+  const Json blame = Json::parse(text)["blame"];
+  EXPECT_EQ(blame["legend"][2]["colour"], "#d53c00");
+  EXPECT_EQ(blame["frames"][0]["file"], "blame_0001.png");
+  EXPECT_EQ(blame["frames"][0]["steps"][1]["interaction_share"], -0.475);
+  const Contents read = read_json(text, "report.json");
+  EXPECT_EQ(json_text(read), text);
+  EXPECT_EQ(read.blame.frames.at(0).steps.at(1).blamed_pixels, 5'185U);
 }
 
 TEST(JsonReport, ReadsBackWhatItWrote) {

@@ -165,5 +165,15 @@ TEST(TextReport, HasNoBlanksAtTheEndsOfItsLines) {
     EXPECT_FALSE(!line.empty() && line.back() == ' ') << line;
 }
 
+TEST(TextReport, TellsWhatMadePixelsWrong) {
+  EXPECT_FALSE(holds(text_report({example_result(), false}), "What made pixels wrong"));
+  const std::string text = text_report({example_result(), false, example_blame()});
+  EXPECT_TRUE(holds(text, "5,200 of 52,000 pixels have a level that is not the ideal one; RMSE 0.412 levels"));
+  const std::string row = line_with(text, "  dot product  ");
+  for (const char* cell : {"5,185", "25.0 %", "72.5 %", "-47.5 %", "8.75"}) EXPECT_TRUE(holds(row, cell)) << cell;
+  EXPECT_TRUE(holds(text, "8.75 levels at column 17, line 18"));
+  EXPECT_TRUE(holds(text, "3 pixels show words that are not this pose's"));
+}
+
 }  // namespace
 }  // namespace rastertlm::report
