@@ -9,10 +9,10 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "modules/object_processor/microprogram.h"
 #include "modules/object_processor/parameters.h"
+#include "modules/object_processor/sliced_accumulator.h"
 
 namespace rastertlm::object_processor {
 
@@ -31,30 +31,17 @@ class ElementaryProcessor {
   void run(const Microprogram& program);
 
   // The highest slice's register above the synchronisation registers of the others: to be read before the cycle's step.
-  std::uint32_t output() const;
+  std::uint32_t output() const { return static_cast<std::uint32_t>(sum_.deskewed()); }
 
  private:
-  struct Slice {
-    std::uint32_t value = 0;
-    std::uint32_t carry = 0;  // flip-flop of the carry into this slice; the lowest slice has none, and it stays 0
-    unsigned bits = 0;
-    unsigned position = 0;                 // of its lowest bit in the word
-    std::vector<std::uint32_t> held_back;  // synchronisation registers, newest first
-  };
-
-  std::uint32_t addend(const Slice& slice) const;
-  std::uint32_t registers() const;
-  void clock(std::uint32_t clocks);
   void access_ram(const Microinstruction& instruction);
 
   std::uint32_t word_mask_;
-  CarryClock carry_clock_;
   bool from_loading_ = false;
   std::array<std::uint32_t, 3> loading_{};
   std::array<std::uint32_t, 3> backup_{};
   std::uint32_t ram_output_ = 0;
-  std::vector<Slice> slices_;
-  std::vector<std::uint64_t> sums_;  // of the adders in this cycle, one a slice, with the carry out above its bits
+  SlicedAccumulator sum_;
 };
 
 }  // namespace rastertlm::object_processor
