@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/base/version.h"
+#include "src/cli/certify_command.h"
 #include "src/cli/compare_command.h"
 #include "src/cli/describe_command.h"
 #include "src/cli/explore_command.h"
@@ -36,6 +37,7 @@ Commands all_commands() {
   commands.push_back(std::make_unique<ExploreCommand>());
   commands.push_back(std::make_unique<VectorsCommand>());
   commands.push_back(std::make_unique<StabilityCommand>());
+  commands.push_back(std::make_unique<CertifyCommand>());
   commands.push_back(std::make_unique<ReportCommand>());
   commands.push_back(std::make_unique<CompareCommand>());
   commands.push_back(std::make_unique<DescribeCommand>());
