@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "modules/object_processor/prenormaliser.h"
 #include "modules/object_processor/triangle_processor.h"
+#include "modules/set_up/point_lighting.h"
+#include "modules/shading/table_bank.h"
 #include "modules/span_unit/span_words.h"
 #include "src/analysis/measurement.h"
 #include "src/base/errors.h"
@@ -22,6 +25,9 @@ namespace rastertlm::analysis {
 struct Tampering {
   std::function<void(object_processor::TriangleWords&)> object_words;
   std::function<void(span_unit::TriangleLoad&)> span_load;
+  std::function<void(object_processor::LinkNormal&)> link_normal;  // after the pre-normalisation unit
+  std::function<void(shading::TableBank&)> shading_tables;         // once they are loaded
+  std::function<void(set_up::LitPoint&)> lit_point;
 };
 
 // What a case is measured on.

@@ -19,6 +19,9 @@ const std::vector<NamedKind>& case_kinds() {
       {"t_junctions", t_junctions_case},
       {"projection", projection_case},
       {"linear_form", linear_form_case},
+      {"shading", shading_case},
+      {"opposing_normals", opposing_normals_case},
+      {"lighting", lighting_case},
   };
   return kinds;
 }

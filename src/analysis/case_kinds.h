@@ -15,5 +15,8 @@ std::unique_ptr<CaseKind> triangles_case();            // stability_triangles.cp
 std::unique_ptr<CaseKind> t_junctions_case();          // stability_t_junctions.cpp: vertices on others' edges
 std::unique_ptr<CaseKind> projection_case();           // stability_projection.cpp: clipping, pixels, depths of a view
 std::unique_ptr<CaseKind> linear_form_case();          // stability_linear_form.cpp: the adders of EP1
+std::unique_ptr<CaseKind> shading_case();              // stability_shading.cpp: normals and lights at their limits
+std::unique_ptr<CaseKind> opposing_normals_case();     // stability_opposing.cpp: normals that vanish on the way
+std::unique_ptr<CaseKind> lighting_case();             // stability_lighting.cpp: light at points, of any exponent
 
 }  // namespace rastertlm::analysis

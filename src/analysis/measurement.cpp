@@ -13,4 +13,13 @@ void keep_worst(Measurement& worst, double measured, double bound) {
   worst.bound = bound;
 }
 
+void keep_largest(Measurement& worst, double measured, double bound) {
+  const double beyond = measured - bound, so_far = worst.measured - worst.bound;
+  const bool broken = beyond > 0.0, was_broken = so_far > 0.0;
+  const bool stays = broken != was_broken ? was_broken : (broken ? beyond <= so_far : measured <= worst.measured);
+  if (stays) return;
+  worst.measured = measured;
+  worst.bound = bound;
+}
+
 }  // namespace rastertlm::analysis

@@ -15,6 +15,9 @@ using report::Measurement;
 
 // Keeps the measurement that is nearest to its bound, or furthest beyond it.
 void keep_worst(Measurement& worst, double measured, double bound);
+// Keeps the largest error beside the bound of that very input, or what is furthest beyond its bound: for bounds that
+// errors meet exactly, as those of single table entries.
+void keep_largest(Measurement& worst, double measured, double bound);
 
 // Nothing at all where the machine has no such step.
 struct Measured {
