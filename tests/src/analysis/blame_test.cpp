@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -119,8 +120,8 @@ TEST(Blame, PixelsAddUp) {
     for (const std::uint32_t step : blame.step) {
       bool differs = false;
       for (std::size_t c = 0; c < 3; ++c)
-        differs =
-            differs || pixels.shown.rgb[3 * pixel + c] != static_cast<int>(pixels.ideal->rgb[3 * pixel + c] + 0.5);
+        differs = differs || pixels.shown.rgb[3 * pixel + c] !=
+                                 static_cast<int>(std::floor(pixels.ideal->rgb[3 * pixel + c] + 0.5));
       const bool covered = pixels.shown.object[pixel] != 0 || pixels.ideal->object[pixel] != 0;
       EXPECT_EQ(step != 0, differs && covered) << "pixel " << pixel;
       wrong += step != 0 ? 1 : 0;
