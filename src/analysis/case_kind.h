@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/mat4x4.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,12 +13,15 @@
 #include "modules/object_processor/prenormaliser.h"
 #include "modules/object_processor/triangle_processor.h"
 #include "modules/set_up/point_lighting.h"
+#include "modules/set_up/quadratic_form.h"
 #include "modules/shading/table_bank.h"
 #include "modules/span_unit/span_words.h"
 #include "src/analysis/measurement.h"
 #include "src/base/errors.h"
+#include "src/geometry/projection.h"
 #include "src/parameter/table.h"
 #include "src/run/inputs.h"
+#include "src/scene/description.h"
 
 namespace rastertlm::analysis {
 
@@ -28,7 +32,16 @@ struct Tampering {
   std::function<void(object_processor::LinkNormal&)> link_normal;  // after the pre-normalisation unit
   std::function<void(shading::TableBank&)> shading_tables;         // once they are loaded
   std::function<void(set_up::LitPoint&)> lit_point;
+  std::function<void(set_up::QuadraticForm<double>&)> form;                // that a solver has found
+  std::function<std::uint64_t(std::uint64_t)> colour_word;                 // a constant of a colour's registers
+  std::function<void(geometry::ScreenVertex<double>&)> neighbours_corner;  // as the second of two neighbours clips it
+  std::function<void(glm::dmat4&)> projection;                             // the matrix from the eye to clip space
+  // In place of scene::animate, from where it is placed at the origin.
+  std::function<glm::dmat4(const scene::AnimationDescription&, std::int64_t frame)> animate;
 };
+
+// Of a quadratic or an adaptive machine; else null.
+const quadratic::Machine* span_machine(const run::Inputs::Content& content);
 
 // What a case is measured on.
 struct Trial {
@@ -40,7 +53,7 @@ struct Trial {
   std::int64_t tries_or(std::int64_t own) const { return tries.value_or(own); }
   // Null where the machine is another.
   const imogene::Machine* object_machine() const { return std::get_if<imogene::Machine>(&machine.machine); }
-  const quadratic::Machine* span_machine() const;  // quadratic or adaptive
+  const quadratic::Machine* span_machine() const { return analysis::span_machine(machine); }
 };
 
 class CaseKind {

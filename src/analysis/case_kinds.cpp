@@ -4,9 +4,9 @@
 
 namespace rastertlm::analysis {
 
-const quadratic::Machine* Trial::span_machine() const {
-  if (const auto* found = std::get_if<quadratic::Machine>(&machine.machine)) return found;
-  return std::get_if<adaptive::Machine>(&machine.machine);
+const quadratic::Machine* span_machine(const run::Inputs::Content& content) {
+  if (const auto* found = std::get_if<quadratic::Machine>(&content.machine)) return found;
+  return std::get_if<adaptive::Machine>(&content.machine);
 }
 
 const std::vector<NamedKind>& case_kinds() {
@@ -17,6 +17,9 @@ const std::vector<NamedKind>& case_kinds() {
       {"coverage", coverage_case},
       {"triangles", triangles_case},
       {"t_junctions", t_junctions_case},
+      {"planes", planes_case},
+      {"depth_order", depth_order_case},
+      {"animation", animation_case},
       {"projection", projection_case},
       {"linear_form", linear_form_case},
       {"shading", shading_case},

@@ -13,6 +13,9 @@ std::unique_ptr<CaseKind> quadratic_solver_case();     // stability_solver.cpp: 
 std::unique_ptr<CaseKind> coverage_case();             // stability_coverage.cpp: the pixels that a mesh covers
 std::unique_ptr<CaseKind> triangles_case();            // stability_triangles.cpp: the pixels of single triangles
 std::unique_ptr<CaseKind> t_junctions_case();          // stability_t_junctions.cpp: vertices on others' edges
+std::unique_ptr<CaseKind> planes_case();               // stability_planes.cpp: depths and normals of triangles
+std::unique_ptr<CaseKind> depth_order_case();          // stability_depth_order.cpp: which of two triangles is seen
+std::unique_ptr<CaseKind> animation_case();            // stability_animation.cpp: where things are after long
 std::unique_ptr<CaseKind> projection_case();           // stability_projection.cpp: clipping, pixels, depths of a view
 std::unique_ptr<CaseKind> linear_form_case();          // stability_linear_form.cpp: the adders of EP1
 std::unique_ptr<CaseKind> shading_case();              // stability_shading.cpp: normals and lights at their limits

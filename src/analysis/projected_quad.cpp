@@ -174,7 +174,7 @@ double ProjectedQuad::distance_from_outline(double x, double y) const {
   return nearest;
 }
 
-ProjectedQuad project(const SpaceQuad& quad, const TriangleScreen& screen) {
+ProjectedQuad project(const SpaceQuad& quad, const TriangleScreen& screen, const Tampering& tampering) {
   const Viewport viewport = screen.viewport();
   const auto given = clip_triangles<double>(quad);
   const auto traced = clip_triangles<Traced>(quad);
@@ -185,6 +185,9 @@ ProjectedQuad project(const SpaceQuad& quad, const TriangleScreen& screen) {
   ProjectedQuad result{frame.grid,
                        {set_up::pieces(given[0], frame, viewport), set_up::pieces(given[1], frame, viewport)},
                        {ExactTriangle(positions(traced[0]), viewport), ExactTriangle(positions(traced[1]), viewport)}};
+  if (tampering.neighbours_corner)
+    for (std::size_t piece = 0; piece < result.pieces[1].size; ++piece)
+      for (auto& corner : result.pieces[1].triangles[piece]) tampering.neighbours_corner(corner);
   Tracer tracer(result, frame, viewport);
   tracer.trace(traced[0], 1);
   tracer.trace(traced[1], 2);

@@ -64,6 +64,6 @@ struct ProjectedQuad {
 };
 
 // As the machine's host does: clipped to the guard band where any corner needs it.
-ProjectedQuad project(const SpaceQuad& quad, const TriangleScreen& screen);
+ProjectedQuad project(const SpaceQuad& quad, const TriangleScreen& screen, const Tampering& tampering);
 
 }  // namespace rastertlm::analysis

@@ -23,8 +23,12 @@ constexpr std::int64_t kPart = 64;
 constexpr unsigned kWholeBits = 16;
 
 // The error at the path's end, in steps of the last bit, of registers of that width: sums wrap, the error does not.
-double error_of(const Path& exact, std::int64_t lines, std::int64_t pixels, unsigned word_bits) {
-  const auto word = [](std::int64_t parts) { return static_cast<std::uint64_t>(floor_div(parts + kPart / 2, kPart)); };
+double error_of(const Path& exact, std::int64_t lines, std::int64_t pixels, unsigned word_bits,
+                const Tampering& tampering) {
+  const auto word = [&](std::int64_t parts) {
+    const auto rounded = static_cast<std::uint64_t>(floor_div(parts + kPart / 2, kPart));
+    return tampering.colour_word ? tampering.colour_word(rounded) : rounded;
+  };
   span_unit::ColourRegisters registers(word_bits);
   registers.load({word(exact.start), word(exact.line_step), word(exact.pixel_step), word(exact.line_line),
                   word(exact.line_pixel), word(exact.pixel_pixel)});
@@ -39,16 +43,17 @@ double error_of(const Path& exact, std::int64_t lines, std::int64_t pixels, unsi
 
 // In levels: the most that was seen. Of the first two paths every constant is half of the last bit off, or 31/64 of it
 // the other way; the others are random.
-double worst_of_paths(std::int64_t steps, std::int64_t bits, Numbers& numbers, std::int64_t tries) {
+double worst_of_paths(std::int64_t steps, std::int64_t bits, Trial& trial, std::int64_t tries) {
   const unsigned word_bits = static_cast<unsigned>(bits) + kWholeBits;
   double worst = 0.0;
   for (const std::int64_t off : {kPart / 2 - 1, -kPart / 2})
-    worst = std::max(worst, error_of({off, off, off, off, off, off}, steps / 2, steps - steps / 2, word_bits));
+    worst = std::max(
+        worst, error_of({off, off, off, off, off, off}, steps / 2, steps - steps / 2, word_bits, trial.tampering));
   for (std::int64_t round = 0; round < tries; ++round) {
-    const auto part = [&] { return numbers.whole(-100'000, 100'000); };
+    const auto part = [&] { return trial.numbers.whole(-100'000, 100'000); };
     const Path path{part(), part(), part(), part(), part(), part()};
-    const std::int64_t lines = numbers.whole(0, steps);
-    worst = std::max(worst, error_of(path, lines, steps - lines, word_bits));
+    const std::int64_t lines = trial.numbers.whole(0, steps);
+    worst = std::max(worst, error_of(path, lines, steps - lines, word_bits, trial.tampering));
   }
   return std::ldexp(worst, -static_cast<int>(bits));
 }
@@ -85,16 +90,15 @@ Measured ForwardDifferences::measure(Trial& trial) const {
   const std::int64_t tries = trial.tries_or(tries_);
   Measured found;
   for (std::int64_t bits = bits_from_; bits <= bits_to_; ++bits)
-    found.measurements.push_back({fmt::format("{} steps, {} fraction bits", steps_, bits), "levels",
-                                  worst_of_paths(steps_, bits, trial.numbers, tries),
-                                  span_unit::fraction_bound(bits, static_cast<std::uint64_t>(steps_)),
-                                  BoundKind::proved});
+    found.measurements.push_back(
+        {fmt::format("{} steps, {} fraction bits", steps_, bits), "levels", worst_of_paths(steps_, bits, trial, tries),
+         span_unit::fraction_bound(bits, static_cast<std::uint64_t>(steps_)), BoundKind::proved});
   const span_unit::SpanUnitParameters& unit = machine->span_unit;
   const std::int64_t on_screen =
       machine->video.columns + machine->video.lines * (unit.start_edge == span_unit::StartEdge::lattice ? 2 : 1);
   found.measurements.push_back({fmt::format("{} steps of this screen, its {} bits", on_screen, unit.fraction_bits),
-                                "levels", worst_of_paths(on_screen, unit.fraction_bits, trial.numbers, tries),
-                                limit_levels_, BoundKind::required});
+                                "levels", worst_of_paths(on_screen, unit.fraction_bits, trial, tries), limit_levels_,
+                                BoundKind::required});
   return found;
 }
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
+#include <limits>
 
 #include "modules/host/path_counts.h"
 #include "src/analysis/case_kind.h"
@@ -31,10 +32,30 @@ struct View {
 };
 constexpr double kFar = 100.0;  // in distances of the near plane
 
-glm::dmat4 eye_to_clip(const View& view, const geometry::Viewport& screen, double near) {
+constexpr double kNear = 0.5;
+
+glm::dmat4 eye_to_clip(const View& view, const geometry::Viewport& screen) {
   const double aspect = static_cast<double>(screen.columns) / static_cast<double>(screen.lines);
-  if (view.projection == Projection::perspective) return scene::perspective(view.fov_deg, aspect, near, kFar * near);
-  return scene::orthographic(2 * near * aspect, 2 * near, near, kFar * near);
+  if (view.projection == Projection::perspective) return scene::perspective(view.fov_deg, aspect, kNear, kFar * kNear);
+  return scene::orthographic(2 * kNear * aspect, 2 * kNear, kNear, kFar * kNear);
+}
+
+// The entries that see, against the closed form in 113 bits, in ulps of each.
+double matrix_error(const View& view, const geometry::Viewport& screen, const glm::dmat4& shown) {
+  const Quad aspect = static_cast<Quad>(static_cast<double>(screen.columns)) / static_cast<double>(screen.lines);
+  const Quad near = kNear, far = kFar * near, depth = far - near;
+  const bool sees_far = view.projection == Projection::perspective;
+  const Quad half =
+      sees_far ? sine_deg(static_cast<Quad>(view.fov_deg) / 2) / cosine_deg(static_cast<Quad>(view.fov_deg) / 2) : near;
+  double worst = 0.0;
+  const auto compare = [&](double entry, Quad right) {
+    worst = std::max(worst, to_double(absolute((entry - right) / right)) / std::numeric_limits<double>::epsilon());
+  };
+  compare(shown[0][0], 1 / (aspect * half));
+  compare(shown[1][1], 1 / half);
+  compare(shown[2][2], sees_far ? -far / depth : -1 / depth);
+  compare(shown[3][2], sees_far ? -far * near / depth : -near / depth);
+  return worst;
 }
 
 glm::dvec3 any_axis(Numbers& numbers) {
@@ -63,16 +84,15 @@ std::array<glm::dvec2, 4> around_middle(const View& view, Numbers& numbers) {
 
 // Seen there, at depths of their own.
 SpaceQuad random_quad(const View& view, const geometry::Viewport& screen, Numbers& numbers) {
-  const double near = 0.5;
   SpaceQuad quad;
-  const glm::dmat4 projection = eye_to_clip(view, screen, near);
+  const glm::dmat4 projection = eye_to_clip(view, screen);
   glm::dmat4 object_to_eye = scene::rotation_deg(any_axis(numbers), numbers.uniform(-180, 180));
   object_to_eye[3] = glm::dvec4(numbers.uniform(-3, 3), numbers.uniform(-3, 3), numbers.uniform(-9, -1), 1.0);
   quad.object_to_clip = host::matrix_product<double>(projection, object_to_eye);
   const glm::dmat4 eye_to_object = glm::inverse(object_to_eye);
   std::array<glm::dvec2, 4> seen = around_middle(view, numbers);
   for (std::size_t i = 0; i < 4; ++i) {
-    const double depth = near * numbers.uniform(view.nearest, view.furthest);
+    const double depth = kNear * numbers.uniform(view.nearest, view.furthest);
     // A pixel in eye space, at distance 1 or anywhere.
     const double x = 2.0 / static_cast<double>(screen.columns) / projection[0][0];
     const double y = 2.0 / static_cast<double>(screen.lines) / projection[1][1];
@@ -84,11 +104,11 @@ SpaceQuad random_quad(const View& view, const geometry::Viewport& screen, Number
 
 class Bench {
  public:
-  explicit Bench(TriangleScreen& screen)
-      : screen_(screen), count_(screen.viewport().columns * screen.viewport().lines) {}
+  Bench(TriangleScreen& screen, const Tampering& tampering)
+      : screen_(screen), tampering_(tampering), count_(screen.viewport().columns * screen.viewport().lines) {}
 
   void measure(const SpaceQuad& quad) {
-    const ProjectedQuad at = project(quad, screen_);
+    const ProjectedQuad at = project(quad, screen_, tampering_);
     keep_worst(positions, at.position_error, at.position_bound);
     if (at.common_edge_is_seen) ++common_edges;
     if (at.common_edge_is_seen && at.common_corners < 2) unlike += 1;
@@ -133,7 +153,7 @@ class Bench {
       seen_.push_back(static_cast<std::size_t>(y) * screen_.viewport().columns + static_cast<std::size_t>(x));
       if (std::isnan(depth)) return;  // nothing is promised of it
       const Extended right = range * exact.depth(static_cast<Extended>(x), static_cast<Extended>(y)) + nearest;
-      keep_worst(depths, std::fabs(static_cast<double>(depth - right)), screen_.depth_bound(plane, x, y) + shifted);
+      keep_worst(depths, std::fabs(static_cast<double>(depth - right)), screen_.plane_bound(plane, x, y) + shifted);
     });
     for (const std::size_t pixel : seen_) count_[pixel] += sign;
     drawn_.insert(drawn_.end(), seen_.begin(), seen_.end());
@@ -165,6 +185,7 @@ class Bench {
   }
 
   TriangleScreen& screen_;
+  const Tampering& tampering_;
   std::vector<int> count_;
   std::vector<std::size_t> seen_;   // of a piece
   std::vector<std::size_t> drawn_;  // of the quadrilateral
@@ -198,12 +219,19 @@ class ProjectionCase : public CaseKind {
   Measured measure(Trial& trial) const override {
     const auto screen = TriangleScreen::of(trial);
     const std::int64_t tries = trial.tries_or(tries_);
-    Bench bench(*screen);
+    Bench bench(*screen, trial.tampering);
     for (std::int64_t round = 0; round < tries; ++round)
       bench.measure(random_quad(view_, screen->viewport(), trial.numbers));
     bench.pixels.what =
         fmt::format("pixel furthest from the outline, of {} that {} pieces cover", bench.covered, bench.pieces);
-    Measured found{{bench.positions, bench.pixels}, {}};
+    glm::dmat4 matrix = eye_to_clip(view_, screen->viewport());
+    if (trial.tampering.projection) trial.tampering.projection(matrix);
+    constexpr double kMostUlps = 4.0;
+    Measured found{{{"entry of the projection's matrix", "ulps", matrix_error(view_, screen->viewport(), matrix),
+                     kMostUlps, BoundKind::required},
+                    bench.positions,
+                    bench.pixels},
+                   {}};
     if (bench.covered > 0) found.measurements.push_back(bench.depths);
     found.measurements.push_back({fmt::format("corners on {} common edges that are not the same", bench.common_edges),
                                   "edges", bench.unlike, 0.0, BoundKind::proved});

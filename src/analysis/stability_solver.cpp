@@ -46,6 +46,7 @@ Offsets<double> triangle(const Triangles& c, Numbers& numbers) {
 }
 
 bool is_of_family(const Triangles& c, const Offsets<double>& at) {
+  if (!std::isfinite(at.x2 + at.y2 + at.x3 + at.y3)) return true;  // numbers that do not hold it never will
   const double area = std::fabs(at.x2 * at.y3 - at.y2 * at.x3);
   const double longest =
       std::max({std::hypot(at.x2, at.y2), std::hypot(at.x3, at.y3), std::hypot(at.x3 - at.x2, at.y3 - at.y2)});
@@ -85,15 +86,16 @@ QuadraticForm<double> plain(const QuadraticForm<T>& form) {
 
 class SolverBench {
  public:
-  SolverBench(const Triangles& of, Numbers& numbers, std::int64_t tries) : of_(of), numbers_(numbers), tries_(tries) {}
+  SolverBench(const Triangles& of, Trial& trial, std::int64_t tries)
+      : of_(of), numbers_(trial.numbers), tampering_(trial.tampering), tries_(tries) {}
 
   template <class T, class Proof>
   void quadratic(set_up::Solver solver, const Proof& proof) {
     for_triangles<T>([&](const Offsets<T>& corners, const Offsets<double>& at, const Levels& levels) {
-      const QuadraticForm<double> form = plain(set_up::solve<T, 1>(solver, corners, {six<T>(levels)})[0]);
-      compare(
-          at, [&](const Weights& p) { return error_of(form, at, levels, p); },
-          [&](const Weights& p) { return proof.bound(at, levels, p); });
+      QuadraticForm<double> form = plain(set_up::solve<T, 1>(solver, corners, {six<T>(levels)})[0]);
+      if (tampering_.form) tampering_.form(form);
+      compare([&](const Weights& p) { return error_of(form, at, levels, p); },
+              [&](const Weights& p) { return proof.bound(at, levels, p); });
     });
   }
 
@@ -101,10 +103,10 @@ class SolverBench {
     constexpr double kHalfPlace = std::numeric_limits<double>::epsilon() / 2;
     for_triangles<double>([&](const Offsets<double>& corners, const Offsets<double>& at, const Levels& levels) {
       const set_up::LinearSolver<double> solver(corners.x2, corners.y2, corners.x3, corners.y3);
-      const QuadraticForm<double> form = solver.solve(levels[0], levels[1], levels[2]);
-      compare(
-          at, [&](const Weights& p) { return linear_error_of(form, at, levels, p); },
-          [&](const Weights& p) { return floating_linear_bound(at, levels, p, kHalfPlace); });
+      QuadraticForm<double> form = solver.solve(levels[0], levels[1], levels[2]);
+      if (tampering_.form) tampering_.form(form);
+      compare([&](const Weights& p) { return linear_error_of(form, at, levels, p); },
+              [&](const Weights& p) { return floating_linear_bound(at, levels, p, kHalfPlace); });
     });
   }
 
@@ -132,7 +134,7 @@ class SolverBench {
   }
 
   template <class Error, class Bound>
-  void compare(const Offsets<double>& /*at*/, const Error& error, const Bound& bound) {
+  void compare(const Error& error, const Bound& bound) {
     bool proved = true;
     for (int i = 0; i <= kParts; ++i)
       for (int j = 0; i + j <= kParts; ++j) {
@@ -147,6 +149,7 @@ class SolverBench {
 
   const Triangles& of_;
   Numbers& numbers_;
+  const Tampering& tampering_;
   std::int64_t tries_;
   std::int64_t unproved_ = 0;
   Measurement worst_{"", "levels", 0.0, 0.0, BoundKind::proved};
@@ -185,7 +188,7 @@ class QuadraticSolverCase : public CaseKind {
     const quadratic::Machine* machine = trial.span_machine();
     if (machine == nullptr) return {};
     const SetUpParameters& parameters = machine->set_up;
-    SolverBench bench(of_, trial.numbers, trial.tries_or(tries_));
+    SolverBench bench(of_, trial, trial.tries_or(tries_));
     if (parameters.linear()) {
       bench.linear();
       return bench.found("64 bits, linear");

@@ -7,6 +7,7 @@
 
 #include "src/analysis/case_kind.h"
 #include "src/analysis/case_kinds.h"
+#include "src/analysis/random_triangles.h"
 #include "src/analysis/triangle_screen.h"
 #include "src/base/fixed_point.h"
 
@@ -16,83 +17,6 @@ namespace {
 using geometry::SnapGrid;
 using geometry::SnappedPoint;
 using set_up::ScreenTriangle;
-
-// limits: corners at the ends of the guard band, where edge words are largest.
-enum class Family { well_shaped, level, upright, near_level, sliver, on_samples, between_samples, limits };
-
-struct Shape {
-  Family family = Family::well_shaped;
-  double aspect = 1.0;
-  double height_pixels = 0.001;
-};
-
-// Where corners may be.
-struct Range {
-  double low_x, high_x, low_y, high_y;
-};
-
-Range range_of(const TriangleScreen& screen, const SnapGrid& grid) {
-  const geometry::Viewport view = screen.viewport();
-  return {-static_cast<double>(grid.guard_x), static_cast<double>(view.columns) - 1 + static_cast<double>(grid.guard_x),
-          -static_cast<double>(grid.guard_y), static_cast<double>(view.lines) - 1 + static_cast<double>(grid.guard_y)};
-}
-
-// At an end of the range, or a few steps of the grid from it, or anywhere.
-double near_limit(double low, double high, double step, Numbers& numbers) {
-  const std::int64_t choice = numbers.whole(0, 4);
-  const double off = static_cast<double>(numbers.whole(0, 3)) * step;
-  if (choice < 2) return low + off;
-  if (choice < 4) return high - off;
-  return numbers.uniform(low, high);
-}
-
-struct Corner {
-  double x, y;
-};
-using Corners = std::array<Corner, 3>;
-
-// A third corner beside the first two, so far off that the longest side is `aspect` times the height.
-Corner beside(const Corner& a, const Corner& b, double aspect, Numbers& numbers) {
-  const double part = numbers.uniform(0.2, 0.8);
-  const double dx = b.x - a.x, dy = b.y - a.y;
-  return {a.x + part * dx - dy / aspect, a.y + part * dy + dx / aspect};
-}
-
-Corners random_corners(const Shape& shape, const Range& range, double step, Numbers& numbers) {
-  const auto any = [&] {
-    return Corner{numbers.uniform(range.low_x, range.high_x), numbers.uniform(range.low_y, range.high_y)};
-  };
-  Corners at{any(), any(), any()};
-  switch (shape.family) {
-    case Family::well_shaped:
-      break;
-    case Family::level:
-      at[1].y = at[0].y;
-      break;
-    case Family::upright:
-      at[1].x = at[0].x;
-      break;
-    case Family::near_level:
-      at[1].y = at[0].y + (at[0].y + shape.height_pixels <= range.high_y ? shape.height_pixels : -shape.height_pixels);
-      break;
-    case Family::sliver:
-      at[2] = beside(at[0], at[1], shape.aspect, numbers);
-      break;
-    case Family::on_samples:
-      for (Corner& c : at) c = {std::round(c.x), std::round(c.y)};
-      break;
-    case Family::between_samples:
-      for (Corner& c : at)
-        c = {std::min(std::floor(c.x) + 0.5, range.high_x), std::min(std::floor(c.y) + 0.5, range.high_y)};
-      break;
-    case Family::limits:
-      for (Corner& c : at)
-        c = {near_limit(range.low_x, range.high_x, step, numbers),
-             near_limit(range.low_y, range.high_y, step, numbers)};
-      break;
-  }
-  return at;
-}
 
 // Is a sample inside, on the grid and without rounding? A sample on a side is where it would be if it were moved to the
 // right by next to nothing, and down by next to nothing of that: the top-left rule. For either orientation.
@@ -183,27 +107,17 @@ class TrianglesCase : public CaseKind {
  public:
   void declare(parameter::Table& table) override {
     table.integer("tries", tries_, {1, 100'000'000}, {"", "Random inputs.", "the catalogue's figures"});
-    table.choice("family", shape_.family,
-                 {"well_shaped", "level", "upright", "near_level", "sliver", "on_samples", "between_samples", "limits"},
-                 {"", "Which triangles are drawn at random.", "the catalogue's figures"});
-    table.real("aspect", shape_.aspect, {1.0, 1e8},
-               {"", "Of slivers: longest side by height.", "the catalogue's figures"});
-    table.real("height_pixels", shape_.height_pixels, {0.0, 1e6, true},
-               {"pixels", "Of edges that are almost level.", "the catalogue's figures"});
+    shape_.declare(table);
   }
   std::string step(const run::Inputs::Content& machine) const override { return coverage_step(machine); }
 
   Measured measure(Trial& trial) const override {
     const auto screen = TriangleScreen::of(trial);
     const std::int64_t tries = trial.tries_or(tries_);
-    // A frame is on the fine grid where all of it is on the screen.
-    const SnapGrid& grid = shape_.family == Family::limits ? screen->grids().guarded : screen->grids().on_screen;
-    SnapGrid seen = grid;
-    if (shape_.family != Family::limits) seen.guard_x = seen.guard_y = 0;
-    const Range range = range_of(*screen, seen);
+    const SnapGrid grid = shape_.grid_of(*screen);
     Bench bench(*screen, grid);
     for (std::int64_t round = 0; round < tries; ++round)
-      bench.measure(random_corners(shape_, range, std::ldexp(1.0, -grid.fraction_bits), trial.numbers));
+      bench.measure(random_corners(shape_, *screen, grid, trial.numbers));
     Measured found;
     if (screen->is_exact())
       found.measurements.push_back(
@@ -216,7 +130,7 @@ class TrianglesCase : public CaseKind {
 
  private:
   std::int64_t tries_ = 100;
-  Shape shape_;
+  TriangleShape shape_;
 };
 
 }  // namespace

@@ -72,7 +72,15 @@ class ObjectScreen : public TriangleScreen {
     return is_exact() ? grid.fraction_bits : set_up::kScaledFractionBits;
   }
 
-  double depth_bound(const SnappedPlane& plane, std::int64_t x, std::int64_t y) const override {
+  std::optional<std::array<object_processor::LinearWords, 3>> normal_words(const ScreenTriangle<double>& corners,
+                                                                           const SnapGrid& grid) const override {
+    set_up::SetUpResult result = set_up::set_up_triangle<double>(corners, 0, true, grid, format_);
+    if (result.outcome != set_up::Outcome::drawn) return std::nullopt;
+    if (tampering_.object_words) tampering_.object_words(result.words);
+    return result.words.normals;
+  }
+
+  double plane_bound(const SnappedPlane& plane, std::int64_t x, std::int64_t y) const override {
     const auto [left, right] = std::minmax({plane.corners()[0].x, plane.corners()[1].x, plane.corners()[2].x});
     const auto [top, bottom] = std::minmax({plane.corners()[0].y, plane.corners()[1].y, plane.corners()[2].y});
     const double dx = from_middle(left, right, format_.columns, plane.fraction_bits(), x);
@@ -145,7 +153,7 @@ class SpanScreen : public TriangleScreen {
   const SnapGrids& grids() const override { return grids_; }
   const WordFormat& depth_format() const override { return format_; }
 
-  double depth_bound(const SnappedPlane& plane, std::int64_t x, std::int64_t y) const override {
+  double plane_bound(const SnappedPlane& plane, std::int64_t x, std::int64_t y) const override {
     const auto [left, right] = std::minmax({plane.corners()[0].x, plane.corners()[1].x, plane.corners()[2].x});
     const auto [top, bottom] = std::minmax({plane.corners()[0].y, plane.corners()[1].y, plane.corners()[2].y});
     const int bits = plane.fraction_bits();

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "modules/set_up/triangle_set_up.h"
 #include "modules/set_up/word_format.h"
@@ -79,9 +80,16 @@ class TriangleScreen {
   virtual double displacement(const set_up::ScreenTriangle<double>& corners, const geometry::SnapGrid& grid) const;
   // Fraction bits of the corners through which planes are laid.
   virtual int plane_bits(const geometry::SnapGrid& grid) const { return grid.fraction_bits; }
-  // How far a depth may be off the plane at a pixel of the triangle, in units: rounding of the words, and of the
-  // doubles that they were computed in. The derivation stands in configs/hard_cases/depth_planes.toml.
-  virtual double depth_bound(const SnappedPlane& plane, std::int64_t x, std::int64_t y) const = 0;
+  // The words of the normal's components, turned to the eye, where the machine interpolates normals;
+  // set_up::normal_unit is 1.
+  virtual std::optional<std::array<object_processor::LinearWords, 3>> normal_words(
+      const set_up::ScreenTriangle<double>& /*corners*/, const geometry::SnapGrid& /*grid*/) const {
+    return std::nullopt;
+  }
+  // How far a depth, or a component of a normal in its units, may be off the plane at a pixel of the triangle, in
+  // units: rounding of the words, and of the doubles that they were computed in. The derivation stands in
+  // configs/hard_cases/planes_well_shaped.toml.
+  virtual double plane_bound(const SnappedPlane& plane, std::int64_t x, std::int64_t y) const = 0;
 };
 
 }  // namespace rastertlm::analysis
