@@ -49,7 +49,7 @@ Tampering span_load(std::function<void(TriangleLoad&)> change) {
 
 // Errors that a pixel can show.
 Tampering moved_edge() {
-  return object_words([](TriangleWords& words) { words.edges[0].c += 3000; });
+  return object_words([](TriangleWords& words) { words.edges[0].c += 100'000; });
 }
 Tampering moved_column() {
   return span_load([](TriangleLoad& load) { load.halves[0].start.column += 1; });
@@ -180,6 +180,20 @@ TEST(Stability, CrossingPlanesAreApartByNoMoreThanTheirErrors) {
       found("imogene", "depth_crossing",
             object_words([count](TriangleWords& words) { words.depth.c += ++*count % 2 == 0 ? 0U : 1U << 16; }));
   EXPECT_FALSE(finding.holds()) << finding.measurements[0].measured << " of " << finding.measurements[0].bound;
+}
+
+// Edges with scales of their own: near the triangle by their own bound, and only that.
+TEST(Stability, ScaledEdgesAreWithinTheirDisplacement) {
+  const std::vector<std::string> scaled{"object_processor.edges=scaled"};
+  for (const char* name : {"triangles_well_shaped", "triangles_sliver_1e6", "triangles_at_limits", "view_near_plane"})
+    EXPECT_TRUE(found("imogene", name, {}, scaled).holds()) << name;
+  const Finding moved = found("imogene", "triangles_well_shaped", moved_edge(), scaled);
+  EXPECT_FALSE(moved.holds()) << moved.measurements[0].measured << " of " << moved.measurements[0].bound;
+  // A thousand lines that should meet at one vertex do not.
+  const Finding fan = found("imogene", "watertight_fan", {}, scaled);
+  EXPECT_FALSE(fan.holds());
+  EXPECT_EQ(fan.measurements[0].kind, BoundKind::required);
+  EXPECT_EQ(fan.step, "object_processor.edges");
 }
 
 // T-junctions are said to be what they are.
