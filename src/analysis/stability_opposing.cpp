@@ -40,7 +40,8 @@ class Opposing {
         word_(static_cast<unsigned>(format_.word_bits)),
         bench_(machine.shading, machine.object_processor, quantities_of(machine.shading)),
         bound_(machine.shading, machine.object_processor.normal_bits),
-        curve_(specular_curve(1, bench_.quantities()[1].exponent)) {
+        curve_(specular_curve(1, bench_.quantities()[1].exponent)),
+        display_(display_rounding(machine.shading)) {
     if (format_.edges == set_up::EdgeForm::scaled) grid_.fraction_bits = set_up::kScaledFractionBits;
   }
 
@@ -170,7 +171,7 @@ class Opposing {
       const double level = bench_.level(pixel, q), wanted = bench_.quantities()[q].exact(towards, halfway);
       // Where nothing is known of the direction, the whole range is no finding.
       if (range.high - range.low > 254.0) return;
-      keep_largest(worst, std::fabs(level - wanted), std::max(wanted - range.low, range.high - wanted));
+      keep_largest(worst, std::fabs(level - wanted), std::max(wanted - range.low, range.high - wanted) + display_);
     };
     keep(diffuse_, 0, towards, diffuse_curve(1));
     keep(specular_, 1, halfway, curve_);
@@ -183,6 +184,7 @@ class Opposing {
   ShadingBench bench_;
   CosineBound bound_;
   Curve curve_;
+  double display_;  // what a display of fewer bits rounds, levels
   std::array<LevelTable, 2> tables_;
   std::array<SnappedPoint, 3> corners_{};
   set_up::ScreenTriangle<double> screen_{};

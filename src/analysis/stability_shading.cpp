@@ -45,7 +45,8 @@ class Lighting {
         normals_(normals),
         trial_(trial),
         limit_(std::int64_t{1} << (machine.object_processor.word_bits - 1)),
-        step_(std::ldexp(1.0, -static_cast<int>(machine.shading.dot_table_output_bits))) {
+        step_(std::ldexp(1.0, -static_cast<int>(machine.shading.dot_table_output_bits))),
+        display_(display_rounding(machine.shading)) {
     for (std::size_t q = 0; q < bench_.quantities().size(); ++q) {
       const Quantity& quantity = bench_.quantities()[q];
       curves_.push_back(q == 0 ? diffuse_curve(1) : specular_curve(1, quantity.exponent));
@@ -151,7 +152,7 @@ class Lighting {
       const Range range = level_range(bound_.sum_at(cosine, given.squares), tables_[q], curves_[q]);
       const double exact = bench_.exact_level(given, q);
       keep_largest(worst_[std::min(q, worst_.size() - 1)], std::fabs(level - exact),
-                   std::max(exact - range.low, range.high - exact));
+                   std::max(exact - range.low, range.high - exact) + display_);
     }
     look_at_sums(pixel);
   }
@@ -179,7 +180,8 @@ class Lighting {
   Normals normals_;
   Trial& trial_;
   std::int64_t limit_;
-  double step_;  // of the dot products' sum
+  double step_;     // of the dot products' sum
+  double display_;  // what a display of fewer bits rounds, levels
   std::vector<Curve> curves_;
   std::vector<LevelTable> tables_;
   std::vector<Measurement> worst_;  // diffuse, then highlights: an exponent each, or all of them together

@@ -69,6 +69,21 @@ TEST(SpanBounds, HoldAndAreBrokenByThePublishedStartEdge) {
   EXPECT_GT(search_spans(machine, numbers, 90, kThinnest).registers, registers);
 }
 
+// What an independent program found for 1,024 steps of adversarial constants; bound and registers meet it.
+TEST(SpanBounds, OfTheLongestPathAreThoseOfTheSpecification) {
+  struct Row {
+    std::int64_t bits;
+    double levels;
+  };
+  for (const Row& row : {Row{8, 1025}, Row{10, 256}, Row{12, 64.1}, Row{14, 16.0}, Row{16, 4.00}, Row{18, 1.001},
+                         Row{19, 0.5005}, Row{20, 0.250}, Row{22, 0.0626}, Row{24, 0.0156}}) {
+    span_unit::SpanUnitParameters p;
+    p.fraction_bits = row.bits;
+    EXPECT_NEAR(span_unit::fraction_bound(row.bits, 1024), row.levels, 0.003 * row.levels) << row.bits;
+    EXPECT_EQ(longest_path_error(p, 1024), span_unit::fraction_bound(row.bits, 1024)) << row.bits;
+  }
+}
+
 TEST(SpanBounds, OfFewerFractionBitsAreBroken) {
   quadratic::Machine machine;
   const double wide = register_bound(machine, 20, kThinnest);

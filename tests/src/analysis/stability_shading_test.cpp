@@ -38,6 +38,7 @@ TEST(ShadingCases, HoldForBothArithmeticsAndOtherWidths) {
       machine.shading.arithmetic = arithmetic;
       machine.object_processor.normal_bits = normal_bits;
       machine.shading.normaliser_address_bits = 12;
+      machine.shading.level_bits = normal_bits == 14 ? 5 : 8;
       for (const std::string& name : kShading) {
         const auto finding = examined(name, content);
         ASSERT_TRUE(finding.has_value()) << name;
