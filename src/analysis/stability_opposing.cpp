@@ -76,16 +76,16 @@ class Opposing {
     const auto last_x = static_cast<std::int64_t>(format_.columns - 1) << q;
     const auto last_y = static_cast<std::int64_t>(format_.lines - 1) << q;
     for (SnappedPoint& p : corners_) p = {numbers.whole(0, last_x), numbers.whole(0, last_y)};
-    // A third of them: two corners on samples, a few pixels to both sides of a sample where nothing is left of a
-    // normal.
-    const bool on_samples = numbers.whole(0, 2) == 0;
-    if (on_samples) put_around_sample();
+    // Two thirds of them: two corners to both sides of a sample where next to nothing is left of a normal; a few pixels
+    // apart, or across the screen.
+    const std::int64_t family = numbers.whole(0, 2);
+    if (family > 0) put_around_sample(family == 1);
     area_ = geometry::doubled_area(corners_[0], corners_[1], corners_[2]);
     if (area_ == 0) return false;
     if (area_ > 0) std::swap(corners_[0], corners_[1]);
     area_ = std::llabs(area_);
     const Direction first = random_unit(numbers), third = random_unit(numbers);
-    const double off = on_samples || numbers.whole(0, 1) == 0 ? 0.0 : 0.001;
+    const double off = family > 0 || numbers.whole(0, 1) == 0 ? 0.0 : 0.001;
     for (int c = 0; c < 3; ++c) {
       const auto i = static_cast<std::size_t>(c);
       screen_[0].normal[c] = first[i];
@@ -102,23 +102,26 @@ class Opposing {
     return result.outcome == set_up::Outcome::drawn;
   }
 
-  void put_around_sample() {
+  void put_around_sample(bool near) {
     Numbers& numbers = trial_.numbers;
-    constexpr std::int64_t kNear = 4;
+    constexpr std::int64_t kNear = 4, kSteps = 3;
     const auto columns = static_cast<std::int64_t>(format_.columns), lines = static_cast<std::int64_t>(format_.lines);
     const std::int64_t x = numbers.whole(kNear, columns - 1 - kNear), y = numbers.whole(kNear, lines - 1 - kNear);
-    const std::int64_t dx = numbers.whole(0, kNear), dy = numbers.whole(-kNear, kNear);
+    const std::int64_t reach_x = near ? kNear : std::min(x, columns - 1 - x) - 1;
+    const std::int64_t reach_y = near ? kNear : std::min(y, lines - 1 - y) - 1;
+    const std::int64_t dx = numbers.whole(0, reach_x), dy = numbers.whole(-reach_y, reach_y);
     const int q = grid_.fraction_bits;
     corners_[0] = {(x - dx) << q, (y - dy) << q};
-    corners_[1] = {(x + dx) << q, (y + dy) << q};
-    corners_[2] = {(x + numbers.whole(-kNear, kNear)) << q, (y + numbers.whole(-kNear, kNear)) << q};
+    // A few steps of the grid beside the opposite place: what is left is a part of a pixel's change.
+    corners_[1] = {((x + dx) << q) + (near ? 0 : numbers.whole(0, kSteps)), (y + dy) << q};
+    if (near) corners_[2] = {(x + numbers.whole(-kNear, kNear)) << q, (y + numbers.whole(-kNear, kNear)) << q};
   }
 
   // Along the edge between the two, mostly where the normal vanishes, and a little inside.
   void look_at_pixel() {
     Numbers& numbers = trial_.numbers;
-    const double along = numbers.whole(0, 3) == 0 ? numbers.uniform(0, 1) : 0.5 + numbers.uniform(-0.01, 0.01);
-    const double in = numbers.whole(0, 1) == 0 ? 0.0 : numbers.uniform(0, 0.02);
+    const double along = numbers.whole(0, 3) == 0 ? numbers.uniform(0, 1) : 0.5 + numbers.uniform(-0.003, 0.003);
+    const double in = numbers.whole(0, 1) == 0 ? 0.0 : numbers.uniform(0, 0.003);
     const auto at = [&](double a, double b, double c) { return (1 - in) * ((1 - along) * a + along * b) + in * c; };
     const std::int64_t x = round_half_up(at(screen_[0].x, screen_[1].x, screen_[2].x));
     const std::int64_t y = round_half_up(at(screen_[0].y, screen_[1].y, screen_[2].y));
