@@ -176,6 +176,12 @@ class FrameSums {
   double squares_ = 0.0;
 };
 
+report::LegendEntry legend_entry(Step step) {
+  const StepTraits& traits = traits_of(step);
+  return {static_cast<std::uint32_t>(step), std::string(traits.name), std::string(traits.meaning),
+          fmt::format("#{:02x}{:02x}{:02x}", traits.colour[0], traits.colour[1], traits.colour[2])};
+}
+
 }  // namespace
 
 FrameBlame blame(const std::vector<std::unique_ptr<ExplainedFrame>>& frames, const frame::Frame& shown,
@@ -184,7 +190,11 @@ FrameBlame blame(const std::vector<std::unique_ptr<ExplainedFrame>>& frames, con
     throw std::invalid_argument("pictures of different sizes are compared");
   FrameBlame result;
   result.step.resize(shown.pixels());
-  FrameSums sums(frames.front()->steps());
+  const std::vector<Step> steps = frames.front()->steps();
+  result.legend.push_back(legend_entry(Step::none));
+  for (const Step step : steps) result.legend.push_back(legend_entry(step));
+  result.legend.push_back(legend_entry(Step::other_words));
+  FrameSums sums(steps);
   for (std::size_t y = 0; y < shown.lines; ++y)
     for (std::size_t x = 0; x < shown.columns; ++x) {
       const std::size_t pixel = y * shown.columns + x;
@@ -201,14 +211,6 @@ FrameBlame blame(const run::Inputs& inputs, const run::FramePixels& pixels) {
   FrameBlame result = blame(explained_frames(inputs, pixels), pixels.shown, *pixels.ideal);
   result.figures.frame = pixels.figures.frame;
   return result;
-}
-
-report::Legend blame_legend() {
-  report::Legend legend;
-  for (const StepTraits& traits : kStepTraits)
-    legend.push_back({static_cast<std::uint32_t>(traits.step), std::string(traits.name), std::string(traits.meaning),
-                      fmt::format("#{:02x}{:02x}{:02x}", traits.colour[0], traits.colour[1], traits.colour[2])});
-  return legend;
 }
 
 }  // namespace rastertlm::analysis

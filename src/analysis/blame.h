@@ -45,6 +45,7 @@ class ExplainedFrame {
 struct FrameBlame {
   report::FrameBlameFigures figures;
   std::vector<std::uint32_t> step;  // a pixel: the number of its step
+  report::Legend legend;            // of the numbers that this machine's pixels may have
 };
 
 // `frames`: of the lines k, k + count ... frames[k] explains line k: one, or two where the picture is two fields of two
@@ -54,8 +55,5 @@ FrameBlame blame(const std::vector<std::unique_ptr<ExplainedFrame>>& frames, con
 
 // The same of a frame that a run shows, with its number. Throws std::invalid_argument without an ideal picture.
 FrameBlame blame(const run::Inputs& inputs, const run::FramePixels& pixels);
-
-// The legend of the pictures and channels.
-report::Legend blame_legend();
 
 }  // namespace rastertlm::analysis

@@ -30,8 +30,9 @@ run::Result simulate(const run::Inputs& inputs, const run::Options& options, rep
     if (blame == nullptr) return std::nullopt;
     analysis::FrameBlame found = analysis::blame(inputs, pixels);
     blame->frames.push_back(found.figures);
+    blame->legend = found.legend;
     return report::LabelledPicture{"blame.step", report::blame_name(pixels.figures.frame), std::move(found.step),
-                                   blame->legend};
+                                   std::move(found.legend)};
   };
   const auto sink = [&](const run::FramePixels& pixels) {
     writer.write_frame(pixels, [&] { return labels(pixels); });
@@ -127,7 +128,6 @@ ExitCode RenderCommand::run() {
   report::OutputDirectory directory(output_directory());
   report::ResultWriter writer(directory);
   report::BlameContents blame;
-  if (blame_) blame.legend = analysis::blame_legend();
   run::Result result = simulate(inputs, run_options(), writer, blame_ ? &blame : nullptr);
   const report::Contents contents =
       writer.write_reports({std::move(result), host_figures_, std::move(blame)}, run::resolved_machine_toml(inputs),

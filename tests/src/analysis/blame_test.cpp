@@ -172,6 +172,17 @@ TEST(Blame, FewFractionBitsAreBlamed) {
   EXPECT_GT(of(blame, Step::coefficients).alone_share, of(blame, Step::interpolation).alone_share);
 }
 
+// A teapot's lid and body come near each other: 12 bits do not tell them apart everywhere.
+TEST(Blame, FewDepthBitsAreBlamed) {
+  const FrameBlame blame = blamed({"", "quadratic", "teapot_at_rest", {"span_unit.depth_bits=12"}});
+  EXPECT_GT(of(blame, Step::depth_order).blamed_pixels, 10U);
+  EXPECT_GT(of(blame, Step::depth_order).alone_share, 0.0);
+}
+
+TEST(Blame, EnoughDepthBitsAreNot) {
+  EXPECT_EQ(of(blamed({"", "quadratic", "teapot_at_rest"}), Step::depth_order).blamed_pixels, 0U);
+}
+
 TEST(Blame, ShortNormalsAreBlamed) {
   const FrameBlame blame = blamed({"", "imogene", "teapot", {"object_processor.normal_bits=7"}});
   const auto& steps = blame.figures.steps;
