@@ -118,7 +118,7 @@ class SpanOrder : public OrderScreen {
         lines_(static_cast<std::uint32_t>(machine.video.lines)),
         by_number_(machine.stores_numbers()),
         unit_(right(parameters_), columns_, lines_),
-        store_(machine.frame_store, store_format()) {}
+        store_(right(machine.frame_store), store_format()) {}
 
   void show(const std::vector<ScreenTriangle<double>>& triangles, const SnapGrid& grid,
             const VisitSeen& visit) override {
@@ -136,6 +136,12 @@ class SpanOrder : public OrderScreen {
  private:
   static const span_unit::SpanUnitParameters& right(span_unit::SpanUnitParameters& parameters) {
     if (parameters.start_edge == span_unit::StartEdge::published) parameters.start_edge = span_unit::StartEdge::lattice;
+    return parameters;
+  }
+  // A picture is whole when it is looked at, and nothing of the last one is left.
+  static frame_store::FrameStoreParameters right(frame_store::FrameStoreParameters parameters) {
+    parameters.swap = frame_store::Swap::retrace;
+    parameters.clear = true;
     return parameters;
   }
   frame_store::FrameStore::Format store_format() const {

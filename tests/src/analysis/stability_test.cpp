@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "src/run/input_files.h"
 #include "src/scene/animation.h"
 
@@ -162,6 +164,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"quadratic", "forward_differences", "2048 steps, 20", floored_words()},
                     Wrong{"quadratic", "solver_sliver_1e3", "triangles", bent_form()},
                     Wrong{"adaptive", "solver_level_edge", "triangles", bent_form()}));
+
+// Whatever else the machine is.
+TEST(Stability, EveryMachineOfTheRepositoryHolds) {
+  for (const auto& file : std::filesystem::directory_iterator(source("machines")))
+    for (const char* name : {"depth_ties", "depth_crossing", "planes_well_shaped", "view_partly_off"}) {
+      const std::string machine = file.path().stem().string();
+      EXPECT_TRUE(found(machine, name, {}).holds()) << machine << ", " << name;
+    }
+}
 
 // A wrong parameter names itself.
 TEST(Stability, WithoutADepthTestTheLastIsSeen) {
