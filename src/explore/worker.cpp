@@ -19,7 +19,9 @@
 #include <system_error>
 #include <thread>
 
+#include "src/base/child_process.h"
 #include "src/base/errors.h"
+#include "src/base/message.h"
 #include "src/explore/figures.h"
 #include "src/explore/thumbnail.h"
 #include "src/report/figure_path.h"
@@ -29,39 +31,6 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 constexpr std::size_t kMostPrinted = 400;  // bytes of its last words that are kept
-
-template <class T>
-void put(std::string& message, const T& number) {
-  message.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-void put(std::string& message, const std::string& text) {
-  put(message, static_cast<std::uint64_t>(text.size()));
-  message += text;
-}
-
-// Both ends are one program on one machine: numbers go as they are.
-class Unpacker {
- public:
-  explicit Unpacker(const std::string& message) : message_(message) {}
-  template <class T>
-  T number() {
-    T value{};
-    if (message_.size() - at_ < sizeof value) throw std::out_of_range("a worker's message is short");
-    std::memcpy(&value, message_.data() + at_, sizeof value);
-    at_ += sizeof value;
-    return value;
-  }
-  std::string text() {
-    const auto size = number<std::uint64_t>();
-    if (message_.size() - at_ < size) throw std::out_of_range("a worker's message is short");
-    at_ += size;
-    return message_.substr(at_ - size, size);
-  }
-
- private:
-  const std::string& message_;
-  std::size_t at_ = 0;
-};
 
 // A message begins with its size: one that ends early is none.
 bool is_whole(const std::string& message) {
@@ -146,16 +115,6 @@ std::string message_of(const Work& work) {
   }
   if (!result.error.empty()) result.state = State::failed;
   return packed(result);
-}
-
-void write_all(int descriptor, const std::string& bytes) {
-  std::size_t written = 0;
-  while (written < bytes.size()) {
-    const ssize_t count = ::write(descriptor, bytes.data() + written, bytes.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return;
-    written += static_cast<std::size_t>(count);
-  }
 }
 
 // For a thread that has not asked for memory yet: it gets a heap of its own. What is given back to the system must be

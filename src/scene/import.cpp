@@ -1,33 +1,30 @@
 #include "src/scene/import.h"
 
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/material.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <assimp/DefaultLogger.hpp>
-#include <assimp/Importer.hpp>
-#include <assimp/LogStream.hpp>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <set>
+#include <span>
+#include <string_view>
 
 #include "src/base/digest.h"
 #include "src/base/errors.h"
 #include "src/scene/mesh_builder.h"
+#include "src/scene/mesh_file.h"
 #include "src/scene/transform.h"
 #include "src/scene/triangulate.h"
 
 namespace rastertlm::scene {
 namespace {
+
+constexpr std::size_t kMostVertices = std::size_t{1} << 24;  // some gigabytes, and more triangles than any machine has
 
 [[noreturn]] void refuse(const std::string& path, const std::string& message) {
   throw InputError({path, 0, "", message});
@@ -38,75 +35,33 @@ std::string read_bytes(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// Remembers which files are opened: a glTF file names its buffers, an OBJ file its materials.
-class WatchedFiles : public Assimp::DefaultIOSystem {
- public:
-  explicit WatchedFiles(std::set<std::string>& opened) : opened_(opened) {}
-  Assimp::IOStream* Open(const char* path, const char* mode) override {
-    Assimp::IOStream* stream = DefaultIOSystem::Open(path, mode);
-    if (stream != nullptr) opened_.insert(path);
-    return stream;
-  }
-
- private:
-  std::set<std::string>& opened_;
-};
-
-// assimp's glTF reader leaves faces out whose vertices do not exist, and says so in its log only.
-class DroppedFaces {
- public:
-  DroppedFaces() {
-    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
-    Assimp::DefaultLogger::get()->attachStream(new Listener(any_), Assimp::Logger::Warn);  // the logger deletes it
-  }
-  ~DroppedFaces() { Assimp::DefaultLogger::kill(); }
-  DroppedFaces(const DroppedFaces&) = delete;
-  DroppedFaces& operator=(const DroppedFaces&) = delete;
-  bool any() const { return any_; }
-
- private:
-  class Listener : public Assimp::LogStream {
-   public:
-    explicit Listener(bool& heard) : heard_(heard) {}
-    void write(const char* message) override {
-      if (std::strstr(message, "out-of-range indices") != nullptr) heard_ = true;
-    }
-
-   private:
-    bool& heard_;
-  };
-  bool any_ = false;
-};
-
-std::string digest_of(const std::string& path, const std::string& bytes, std::set<std::string> opened) {
+std::string digest_of(const std::string& path, const std::string& bytes, const std::vector<std::string>& opened) {
   std::string text = sha256_hex(bytes);
-  opened.erase(path);
-  for (const std::string& other : opened) text += '\n' + sha256_hex(read_bytes(other));
+  for (const std::string& other : opened)
+    if (other != path) text += '\n' + sha256_hex(read_bytes(other));
   return sha256_hex(text);
 }
 
-glm::dmat4 matrix_of(const aiMatrix4x4& m) {
-  glm::dmat4 result;
-  for (unsigned row = 0; row < 4; ++row)
-    for (unsigned column = 0; column < 4; ++column)
-      result[static_cast<int>(column)][static_cast<int>(row)] = static_cast<double>(m[row][column]);
-  return result;
-}
-
-glm::dvec3 vector_of(const aiVector3D& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
+glm::dvec3 vector_of(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// One file while it is being read.
+// One file on its way to a mesh.
 class Reading {
  public:
-  Reading(const std::string& path, const aiScene& scene, bool facet_normals)
-      : path_(path), scene_(scene), facet_normals_(facet_normals) {}
+  Reading(const std::string& path, const MeshFile& file, bool facet_normals)
+      : path_(path), file_(file), facet_normals_(facet_normals) {}
 
   ImportedMesh run() {
-    add_node(*scene_.mRootNode, glm::dmat4(1.0));
+    std::vector<glm::dmat4> to_file;
+    for (const MeshFile::Node& node : file_.nodes) {
+      if (!to_file.empty() && node.parent >= to_file.size()) refuse(path_, "a node comes before the one it is part of");
+      to_file.push_back(to_file.empty() ? node.to_parent : to_file[node.parent] * node.to_parent);
+      for (const std::uint32_t part : node.parts) {
+        if (part >= file_.parts.size()) refuse(path_, "a node names a mesh that does not exist");
+        add_part(file_.parts[part], to_file.back());
+      }
+    }
     if (result_.mesh.triangles.empty()) refuse(path_, "has no triangle");
     fill_normals();
     join_vertices(result_.mesh);
@@ -116,48 +71,44 @@ class Reading {
   }
 
  private:
-  void add_node(const aiNode& node, const glm::dmat4& parent) {
-    const glm::dmat4 to_file = parent * matrix_of(node.mTransformation);
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-      if (node.mMeshes[i] >= scene_.mNumMeshes) refuse(path_, "a node names a mesh that does not exist");
-      add_mesh(*scene_.mMeshes[node.mMeshes[i]], to_file);
-    }
-    for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], to_file);
-  }
-
-  void add_mesh(const aiMesh& mesh, const glm::dmat4& to_file) {
+  void add_part(const MeshFile::Part& part, const glm::dmat4& to_file) {
     Mesh& out = result_.mesh;
     const std::size_t base = out.positions.size();
-    if (base + mesh.mNumVertices > std::numeric_limits<std::uint32_t>::max())
-      refuse(path_, "has more than 2^32 vertices");
+    if (part.positions.size() > kMostVertices - base)
+      refuse(path_, fmt::format("has more than {} vertices", kMostVertices));
     const glm::dmat3 linear(to_file);
     const glm::dmat3 for_normals = inverse_transpose(linear);
     const bool mirrored = glm::dot(linear[0], glm::cross(linear[1], linear[2])) < 0.0;
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      const glm::dvec3 position(to_file * glm::dvec4(vector_of(mesh.mVertices[i]), 1.0));
+    const bool has_normals = part.normals.size() == part.positions.size() && !facet_normals_;
+    for (std::size_t i = 0; i < part.positions.size(); ++i) {
+      const glm::dvec3 position(to_file * glm::dvec4(vector_of(part.positions[i]), 1.0));
       if (!is_finite(position)) refuse(path_, fmt::format("vertex {} is not finite", base + i));
       out.positions.push_back(position);
-      out.normals.push_back(mesh.HasNormals() && !facet_normals_ ? for_normals * vector_of(mesh.mNormals[i])
-                                                                 : glm::dvec3(0.0));
+      out.normals.push_back(has_normals ? for_normals * vector_of(part.normals[i]) : glm::dvec3(0.0));
       if (!is_finite(out.normals.back())) refuse(path_, fmt::format("the normal of vertex {} is not finite", base + i));
     }
-    const std::uint16_t material = material_of(mesh.mMaterialIndex);
-    for (unsigned i = 0; i < mesh.mNumFaces; ++i) add_face(mesh.mFaces[i], mesh.mNumVertices, base, mirrored, material);
+    const std::uint16_t material = material_of(part.material);
+    std::size_t first = 0;
+    for (const std::uint32_t count : part.face_corners) {
+      if (count > part.corners.size() - first) refuse(path_, "a face has more corners than there are");
+      add_face(part, {part.corners.data() + first, count}, base, mirrored, material);
+      first += count;
+    }
   }
 
-  void add_face(const aiFace& face, unsigned vertices, std::size_t base, bool mirrored, std::uint16_t material) {
-    for (unsigned corner = 0; corner < face.mNumIndices; ++corner)
-      if (face.mIndices[corner] >= vertices)
-        refuse(path_, fmt::format("a face names vertex {}: there are {}", face.mIndices[corner], vertices));
-    if (face.mNumIndices == 0) refuse(path_, "a face has no corner: the file is damaged or cut short");
-    if (face.mNumIndices < 3) {
+  void add_face(const MeshFile::Part& part, std::span<const std::uint32_t> face, std::size_t base, bool mirrored,
+                std::uint16_t material) {
+    for (const std::uint32_t corner : face)
+      if (corner >= part.positions.size())
+        refuse(path_, fmt::format("a face names vertex {}: there are {}", corner, part.positions.size()));
+    if (face.empty()) refuse(path_, "a face has no corner: the file is damaged or cut short");
+    if (face.size() < 3) {
       ++result_.mesh.left_out;
       return;
     }
     std::vector<glm::dvec3> corners;
-    for (unsigned corner = 0; corner < face.mNumIndices; ++corner)
-      corners.push_back(result_.mesh.positions[base + face.mIndices[corner]]);
-    const auto at = [&](std::uint32_t corner) { return static_cast<std::uint32_t>(base + face.mIndices[corner]); };
+    for (const std::uint32_t corner : face) corners.push_back(result_.mesh.positions[base + corner]);
+    const auto at = [&](std::uint32_t corner) { return static_cast<std::uint32_t>(base + face[corner]); };
     for (const auto& t : triangulate(corners)) {
       result_.mesh.triangles.push_back({at(t[0]), at(t[mirrored ? 2 : 1]), at(t[mirrored ? 1 : 2])});
       result_.mesh.material.push_back(material);
@@ -185,14 +136,13 @@ class Reading {
     if (result_.materials.size() >= std::numeric_limits<std::uint16_t>::max()) refuse(path_, "has too many materials");
     Material material;
     std::string name;
-    if (index < scene_.mNumMaterials) {
-      const aiMaterial& source = *scene_.mMaterials[index];
-      aiString text;
-      if (source.Get(AI_MATKEY_NAME, text) == aiReturn_SUCCESS) name = text.C_Str();
-      aiColor4D colour;
-      if (source.Get(AI_MATKEY_BASE_COLOR, colour) == aiReturn_SUCCESS ||
-          source.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS)
-        material.colour = glm::dvec3(fraction(colour.r), fraction(colour.g), fraction(colour.b));
+    if (index < file_.materials.size()) {
+      const MeshFile::Colour& source = file_.materials[index];
+      name = source.name;
+      if (source.colour) {
+        const auto& [red, green, blue] = *source.colour;
+        material.colour = glm::dvec3(fraction(red), fraction(green), fraction(blue));
+      }
       // Where the file has none, assimp makes one up, which has this name, or none and is white.
       const bool made_up = name == AI_DEFAULT_MATERIAL_NAME || (name.empty() && material.colour == glm::dvec3(1.0));
       own_material_ = own_material_ || !made_up;
@@ -208,18 +158,34 @@ class Reading {
   }
 
   const std::string& path_;
-  const aiScene& scene_;
+  const MeshFile& file_;
   bool facet_normals_;
   bool own_material_ = false;
   std::map<unsigned, std::uint16_t> materials_;
   ImportedMesh result_;
 };
 
+std::string in_small_letters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+  return text;
+}
+
 bool is_stl(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
-  return extension == ".stl";
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return in_small_letters(extension) == ".stl";
+}
+
+// Where a PLY file's header does not end in a line of its own, assimp looks for the end for ever.
+bool is_ply_without_end(const std::string& bytes) {
+  constexpr std::string_view kEnd = "end_header";
+  if (in_small_letters(bytes.substr(0, 3)) != "ply") return false;
+  for (std::size_t at = bytes.find(kEnd); at != std::string::npos; at = bytes.find(kEnd, at + 1)) {
+    const std::size_t after = at + kEnd.size();
+    const bool alone = bytes[at - 1] == '\n' || bytes[at - 1] == '\r';
+    if (alone && after < bytes.size() && (bytes[after] == '\n' || bytes[after] == '\r')) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -231,19 +197,11 @@ ImportedMesh import_mesh(const std::string& path) {
   if (!std::ifstream(path, std::ios::binary)) refuse(path, "cannot be read");
   const std::string bytes = read_bytes(path);
   if (bytes.empty()) refuse(path, "is empty");
+  if (is_ply_without_end(bytes)) refuse(path, "is not a mesh that can be read: its header does not end");
 
-  std::set<std::string> opened;
-  Assimp::Importer importer;
-  importer.SetIOHandler(new WatchedFiles(opened));  // the importer deletes it
-  const DroppedFaces dropped;
-  // Polygons are triangulated here: assimp's own step aborts the program on some damaged files.
-  const aiScene* scene = importer.ReadFile(path, aiProcess_ValidateDataStructure);
-  if (scene == nullptr) refuse(path, fmt::format("is not a mesh that can be read: {}", importer.GetErrorString()));
-  if (dropped.any()) refuse(path, "a face names a vertex that does not exist");
-  if ((scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0 || scene->mRootNode == nullptr || scene->mNumMeshes == 0)
-    refuse(path, "has no triangle");
-  ImportedMesh result = Reading(path, *scene, is_stl(path)).run();
-  result.digest = digest_of(path, bytes, std::move(opened));
+  const MeshFile file = read_mesh_file(path, bytes.size());
+  ImportedMesh result = Reading(path, file, is_stl(path)).run();
+  result.digest = digest_of(path, bytes, file.opened);
   return result;
 }
 

@@ -20,7 +20,7 @@ struct ImportedMesh {
 // applied; polygons are triangulated; points and lines are left out and counted in Mesh::left_out. Normals are the
 // file's; where it has none, and for STL (which has one a facet), they are computed smooth over joined vertices. Throws
 // InputError, naming the file: missing, empty, not a mesh, a vertex that is not finite, a face that names a vertex that
-// does not exist, no triangle.
+// does not exist, no triangle, more than 2^24 vertices, damage that stops assimp (which reads in a process of its own).
 ImportedMesh import_mesh(const std::string& path);
 
 }  // namespace rastertlm::scene
