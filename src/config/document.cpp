@@ -145,6 +145,8 @@ Document Document::from_text(std::string_view text, std::string file) {
   document.file_ = std::move(file);
   if (const int line = line_of_excessive_nesting(text); line > 0)
     refuse(document.file_, line, fmt::format("keys are nested more than {} deep", kMaximumKeyDepth));
+  if (const int line = line_of_foreign_character(text); line > 0)
+    refuse(document.file_, line, "not valid TOML: a character beyond ASCII outside of strings and comments");
   try {
     document.entries_ = Flattener().flatten(toml::parse(text));
   } catch (const toml::parse_error& error) {
@@ -170,7 +172,7 @@ const Entry* Document::find(std::string_view path) const {
 }
 
 std::optional<Raw> parse_value(std::string_view text) {
-  if (line_of_excessive_nesting(text) > 0) return std::nullopt;
+  if (line_of_excessive_nesting(text) > 0 || line_of_foreign_character(text) > 0) return std::nullopt;
   try {
     const toml::table table = toml::parse(fmt::format("v = {}\n", text));
     if (table.size() != 1 || !table.contains("v")) return std::nullopt;

@@ -9,7 +9,9 @@ class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {}
 
-  int run() {
+  // Until `stops` says so of what stands outside of strings and comments: the line, or 0.
+  template <class Stops>
+  int run(const Stops& stops) {
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == '#') {
@@ -18,7 +20,7 @@ class Scanner {
         skip_string(c);
       } else {
         if (c == '.') ++dots_;
-        if (dots_ >= kMaximumKeyDepth) return line_;
+        if (stops(c, dots_)) return line_;
         if (ends_key(c)) dots_ = 0;
         if (c == '\n') ++line_;
         ++at_;
@@ -69,6 +71,14 @@ class Scanner {
 
 }  // namespace
 
-int line_of_excessive_nesting(std::string_view text) { return Scanner(text).run(); }
+int line_of_excessive_nesting(std::string_view text) {
+  return Scanner(text).run([](char, int dots) { return dots >= kMaximumKeyDepth; });
+}
+
+int line_of_foreign_character(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return Scanner(text).run([](char c, int) { return static_cast<unsigned char>(c) >= 0x80; });
+}
 
 }  // namespace rastertlm::config

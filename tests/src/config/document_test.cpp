@@ -163,5 +163,21 @@ RC_GTEST_PROP(DocumentFuzz, AnyBytesAreADocumentOrAnInputError, ()) {
   }
 }
 
+// toml++ 3.3 takes for granted that most characters beyond ASCII do not follow a value or begin a key, and goes on from
+// what cannot be. Fuzzing found it.
+TEST(Document, CharactersBeyondAsciiStandInStringsAndCommentsAlone) {
+  using testing::HasSubstr;
+  for (const char* text :
+       {"a = 1\nb = 0.\xd0\xac\n", "a = 1\n\xd0\xac = 1\n", "a = 1\n[\xd0\xac]\n", "a = 1\nb = [1,\xff]\n"})
+    EXPECT_THAT(error_of_text(text), HasSubstr("t.toml:2: not valid TOML: a character beyond ASCII")) << text;
+  for (const char* text : {"a = \"\xd0\xac\" # \xd0\xac\n", "\"\xd0\xac\" = 1\n",
+                           "\xef\xbb\xbf"
+                           "a = 1\n",
+                           "a = \"\"\"\n\xd0\xac\"\"\"\n"})
+    EXPECT_EQ(error_of_text(text), "no error") << text;
+  EXPECT_FALSE(parse_value("0.\xd0\xac"));
+  EXPECT_TRUE(parse_value("\"\xd0\xac\""));
+}
+
 }  // namespace
 }  // namespace rastertlm::config
