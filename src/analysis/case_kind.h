@@ -50,7 +50,9 @@ struct Trial {
   std::optional<std::int64_t> tries = std::nullopt;  // random inputs, in place of the case's own
   Tampering tampering = {};
 
-  std::int64_t tries_or(std::int64_t own) const { return tries.value_or(own); }
+  std::int64_t tried = 0;  // random inputs that the case asked for; 0: it draws none
+
+  std::int64_t tries_or(std::int64_t own) { return tried = tries.value_or(own); }
   // Null where the machine is another.
   const imogene::Machine* object_machine() const { return std::get_if<imogene::Machine>(&machine.machine); }
   const quadratic::Machine* span_machine() const { return analysis::span_machine(machine); }
@@ -65,6 +67,8 @@ class CaseKind {
   virtual void check(const std::string& /*file*/, Diagnostics& /*diagnostics*/) const {}
   // The parameter of that machine which decides whether the bounds hold: "span_unit.start_edge".
   virtual std::string step(const run::Inputs::Content& machine) const = 0;
+  // About what a try costs, in microseconds: of a long run most inputs go where they are cheap.
+  virtual double try_us(const run::Inputs::Content& /*machine*/) const { return 1000.0; }
   // By the machine's own core. The same numbers, the same figures.
   virtual Measured measure(Trial& trial) const = 0;
 };

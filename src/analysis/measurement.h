@@ -23,6 +23,9 @@ void keep_largest(Measurement& worst, double measured, double bound);
 struct Measured {
   std::vector<Measurement> measurements;
   std::vector<std::string> notes;  // what a reader must know beside the figures: a sentence each
+  // Where a measurement does not say on how many inputs its bound was checked, it was on all that were tried, which all
+  // share; or each has inputs of its own.
+  bool inputs_apart = false;
   bool empty() const { return measurements.empty() && notes.empty(); }
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "src/analysis/hard_case.h"
 #include "src/report/stability_report.h"
@@ -16,5 +17,18 @@ using report::Finding;
 // whatever else is measured.
 std::optional<Finding> examine(const HardCase& hard_case, const run::Inputs::Content& machine, std::uint64_t seed,
                                std::optional<std::int64_t> tries, const Tampering& tampering = {});
+
+// What a case asks for when it is tried, and about what it costs.
+struct CaseCost {
+  double random_inputs = 0.0;  // of one try, on average: not every triangle has a pixel; 0: it draws none
+  double try_us = 0.0;
+};
+// By some milliseconds of tries.
+CaseCost cost_of(const HardCase& hard_case, const run::Inputs::Content& machine, std::uint64_t seed);
+
+// How often to try each of these cases so that `inputs` are tried over all of them, and not many more: as long for
+// each, so that most inputs go where they are cheap, but no case less often than kFewestTries.
+inline constexpr std::int64_t kFewestTries = 20;
+std::vector<std::int64_t> spread_inputs(const std::vector<CaseCost>& cases, std::int64_t inputs);
 
 }  // namespace rastertlm::analysis

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "modules/span_unit/span_registers.h"
@@ -41,12 +42,14 @@ double error_of(const Path& exact, std::int64_t lines, std::int64_t pixels, unsi
   return std::fabs(static_cast<double>(sign_extend(off, word_bits + bit_length(kPart) - 1))) / kPart;
 }
 
-// In levels: the most that was seen. Of the first two paths every constant is half of the last bit off, or 31/64 of it
-// the other way; the others are random.
+// Of the first two paths every constant is half of the last bit off, or 31/64 of it the other way.
+constexpr std::array<std::int64_t, 2> kWorstPaths{kPart / 2 - 1, -kPart / 2};
+
+// In levels: the most that was seen, of those paths and of random ones.
 double worst_of_paths(std::int64_t steps, std::int64_t bits, Trial& trial, std::int64_t tries) {
   const unsigned word_bits = static_cast<unsigned>(bits) + kWholeBits;
   double worst = 0.0;
-  for (const std::int64_t off : {kPart / 2 - 1, -kPart / 2})
+  for (const std::int64_t off : kWorstPaths)
     worst = std::max(
         worst, error_of({off, off, off, off, off, off}, steps / 2, steps - steps / 2, word_bits, trial.tampering));
   for (std::int64_t round = 0; round < tries; ++round) {
@@ -74,6 +77,9 @@ class ForwardDifferences : public CaseKind {
       diagnostics.add({file, 0, "bits_from", "is above bits_to; a range from the fewest to the most bits is expected"});
   }
   std::string step(const run::Inputs::Content& /*machine*/) const override { return "span_unit.fraction_bits"; }
+  double try_us(const run::Inputs::Content& /*machine*/) const override {
+    return 0.0007 * static_cast<double>(steps_ * (bits_to_ - bits_from_ + 2));
+  }
   Measured measure(Trial& trial) const override;
 
  private:
@@ -89,6 +95,7 @@ Measured ForwardDifferences::measure(Trial& trial) const {
   if (machine == nullptr) return {};
   const std::int64_t tries = trial.tries_or(tries_);
   Measured found;
+  found.inputs_apart = true;
   for (std::int64_t bits = bits_from_; bits <= bits_to_; ++bits)
     found.measurements.push_back(
         {fmt::format("{} steps, {} fraction bits", steps_, bits), "levels", worst_of_paths(steps_, bits, trial, tries),
@@ -99,6 +106,7 @@ Measured ForwardDifferences::measure(Trial& trial) const {
   found.measurements.push_back({fmt::format("{} steps of this screen, its {} bits", on_screen, unit.fraction_bits),
                                 "levels", worst_of_paths(on_screen, unit.fraction_bits, trial, tries), limit_levels_,
                                 BoundKind::required});
+  for (Measurement& m : found.measurements) m.inputs = static_cast<std::int64_t>(kWorstPaths.size()) + tries;
   return found;
 }
 

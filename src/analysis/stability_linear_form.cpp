@@ -38,6 +38,7 @@ class LinearFormCase : public CaseKind {
     table.integer("tries", tries_, {1, 100'000'000}, {"", "Random inputs.", "the catalogue's figures"});
   }
   std::string step(const run::Inputs::Content& /*machine*/) const override { return "ep1.carry_clock"; }
+  double try_us(const run::Inputs::Content& /*machine*/) const override { return 8.0; }
   Measured measure(Trial& trial) const override {
     const imogene::Machine* machine = trial.object_machine();
     if (machine == nullptr) return {};

@@ -215,6 +215,9 @@ class ProjectionCase : public CaseKind {
     if (view_.fov_deg >= 180.0) diagnostics.add({file, 0, "fov_deg", "must be below 180 degrees"});
   }
   std::string step(const run::Inputs::Content& machine) const override { return coverage_step(machine); }
+  double try_us(const run::Inputs::Content& /*machine*/) const override {
+    return view_.size_pixels < 1.0 ? 16.0 : 5000.0;  // nothing, or most of the screen
+  }
 
   Measured measure(Trial& trial) const override {
     const auto screen = TriangleScreen::of(trial);

@@ -207,6 +207,10 @@ class StartEdgeCase : public CaseKind {
                  {"", "The levels that a triangle goes through: any, or each 0 or 255.", "the catalogue's figures"});
   }
   std::string step(const run::Inputs::Content& /*machine*/) const override { return "span_unit.start_edge"; }
+  double try_us(const run::Inputs::Content& /*machine*/) const override {
+    const double side = family_.size_pixels > 0.0 ? family_.size_pixels : 512.0;
+    return 1.0 + 0.007 * side * side;
+  }
 
   Measured measure(Trial& trial) const override {
     const quadratic::Machine* machine = trial.span_machine();
@@ -217,6 +221,7 @@ class StartEdgeCase : public CaseKind {
       bench.measure(random_triangle(family_, *machine, trial.numbers));
     bench.worst.what =
         fmt::format("colours of {} triangles, {} of them with steps beyond their word", bench.drawn, bench.wrapped);
+    bench.worst.inputs = bench.drawn - bench.unpromised;
     Measured found{{bench.worst}, {}};
     if (bench.unpromised > 0)
       found.notes.push_back(fmt::format(

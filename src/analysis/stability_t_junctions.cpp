@@ -142,6 +142,7 @@ class TJunctionsCase : public CaseKind {
     table.integer("tries", tries_, {1, 100'000'000}, {"", "Random inputs.", "the catalogue's figures"});
   }
   std::string step(const run::Inputs::Content& machine) const override { return coverage_step(machine); }
+  double try_us(const run::Inputs::Content& /*machine*/) const override { return 4000.0; }
 
   Measured measure(Trial& trial) const override {
     const auto screen = TriangleScreen::of(trial);

@@ -15,6 +15,8 @@
 namespace rastertlm::cli {
 namespace {
 
+constexpr std::uint64_t kMostInputs = 1'000'000'000'000;
+
 std::vector<analysis::HardCase> chosen_of(std::vector<analysis::HardCase> all, const std::vector<std::string>& names) {
   if (names.empty()) return all;
   std::vector<std::string> known;
@@ -40,10 +42,24 @@ void StabilityCommand::declare(CLI::App& app) {
       ->allow_extra_args(false);
   app.add_option("--seed", seed_, "of random inputs")->capture_default_str()->type_name("N");
   app.add_option("--tries", tries_, "random inputs of each case, in place of its own")
-      ->check(CLI::Validator([](std::string& text) { return whole_from_one(text); }, "", ""))
+      ->check(CLI::Validator([](std::string& text) { return whole_up_to(text, kMostInputs); }, "", ""))
+      ->type_name("N");
+  app.add_option("--inputs", inputs_, "random inputs of all cases together, most of them where they are cheap")
+      ->check(CLI::Validator([](std::string& text) { return whole_up_to(text, kMostInputs); }, "", ""))
+      ->excludes("--tries")
       ->type_name("N");
   app.add_option("--json", json_, "write what was found as JSON; - is standard output, in place of the tables")
       ->type_name("FILE");
+}
+
+// Of each machine and case, in that order; 0: the case's own.
+std::vector<std::int64_t> StabilityCommand::tries_of(const std::vector<run::Inputs>& machines,
+                                                     const std::vector<analysis::HardCase>& cases) const {
+  if (inputs_ == 0) return std::vector<std::int64_t>(machines.size() * cases.size(), tries_);
+  std::vector<analysis::CaseCost> costs;
+  for (const run::Inputs& machine : machines)
+    for (const analysis::HardCase& one : cases) costs.push_back(analysis::cost_of(one, *machine.content, seed_));
+  return analysis::spread_inputs(costs, inputs_);
 }
 
 ExitCode StabilityCommand::run() {
@@ -51,18 +67,22 @@ ExitCode StabilityCommand::run() {
   const std::vector<config::Override> overrides = config::parse_overrides(overrides_, diagnostics);
   diagnostics.throw_if_any();
   const std::vector<analysis::HardCase> cases = chosen_of(analysis::read_hard_cases(cases_), chosen_);
-  std::optional<std::int64_t> tries;
-  if (tries_ > 0) tries = tries_;
   const bool tables = json_ != "-";
   run::InputFiles files;
+  std::vector<run::Inputs> machines;
+  for (const std::string& file : machines_) machines.push_back(files.read_machine_alone(file, overrides));
+  const std::vector<std::int64_t> tries = tries_of(machines, cases);
+  std::size_t next = 0;
   report::StabilityReport found{seed_, {}};
-  for (const std::string& file : machines_) {
-    const run::Inputs machine = files.read_machine_alone(file, overrides);
+  for (std::size_t i = 0; i < machines_.size(); ++i) {
     report::MachineFindings& of_machine = found.machines.emplace_back();
-    of_machine.file = file;
-    for (const analysis::HardCase& one : cases)
-      if (auto finding = analysis::examine(one, *machine.content, seed_, tries))
+    of_machine.file = machines_[i];
+    for (const analysis::HardCase& one : cases) {
+      const std::int64_t times = tries[next++];
+      const auto given = times > 0 ? std::optional(times) : std::nullopt;
+      if (auto finding = analysis::examine(one, *machines[i].content, seed_, given))
         of_machine.findings.push_back(*std::move(finding));
+    }
     if (tables) std::fputs(report::findings_text(of_machine, seed_).c_str(), stdout);
   }
   std::fputs(tables ? report::verdict_text(found).c_str() : report::stability_json(found).c_str(), stdout);

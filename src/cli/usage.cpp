@@ -68,11 +68,13 @@ std::string part_of_one(const std::string& text) {
   return fmt::format("'{}' is not a number from 0 to 1", text);
 }
 
-std::string whole_from_one(const std::string& text) {
+std::string whole_up_to(const std::string& text, std::uint64_t most) {
   std::uint64_t number = 0;
-  if (reads_as(text, number) && number >= 1 && number <= kMostFrames) return {};
-  return fmt::format("'{}' is not a whole number from 1 to {}", text, kMostFrames);
+  if (reads_as(text, number) && number >= 1 && number <= most) return {};
+  return fmt::format("'{}' is not a whole number from 1 to {}", text, most);
 }
+
+std::string whole_from_one(const std::string& text) { return whole_up_to(text, kMostFrames); }
 
 std::string frame_number(const std::string& text) {
   std::uint64_t number = 0;

@@ -19,9 +19,10 @@ std::string left_over(const CLI::App& app, const std::vector<std::string>& words
 std::string finite_and_positive(const std::string& text);
 std::string part_of_one(const std::string& text);  // a number from 0 to 1
 std::string whole_from_one(const std::string& text);
-std::string frame_number(const std::string& text);  // 0 .. one less than whole_from_one() allows
-std::string field_number(const std::string& text);  // 0 or 1
-std::string whole_range(const std::string& text);   // FROM-TO
+std::string whole_up_to(const std::string& text, std::uint64_t most);  // from 1
+std::string frame_number(const std::string& text);                     // 0 .. one less than whole_from_one() allows
+std::string field_number(const std::string& text);                     // 0 or 1
+std::string whole_range(const std::string& text);                      // FROM-TO
 std::string not_empty(const std::string& text);
 std::string pixels_a_degree(const std::string& text);  // what FLIP can be had at
 

@@ -31,10 +31,12 @@ std::string text_of(const Finding& finding) {
                    {"bound", Align::right},
                    {"unit", Align::left},
                    {"margin", Align::right},
+                   {"inputs", Align::right},
                    {"verdict", Align::left}},
                   "  ");
   for (const Measurement& m : finding.measurements)
     table.row({m.what, figure(m.measured), figure(m.bound), m.unit, margin(m),
+               grouped(static_cast<std::uint64_t>(m.inputs)),
                fmt::format("{}, {}", text_of(m.kind), m.holds() ? "holds" : "BROKEN")});
   std::string text = fmt::format("{} ({}): {}\n", finding.name, finding.step, finding.stresses);
   if (!finding.measurements.empty()) text += table.text();
@@ -52,6 +54,7 @@ Json json_of(const Finding& finding) {
                             {"measured", stored(m.measured)},
                             {"bound", stored(m.bound)},
                             {"bound_kind", text_of(m.kind)},
+                            {"inputs", m.inputs},
                             {"holds", m.holds()}});
   return {{"case", finding.name},
           {"kind", finding.kind},
@@ -60,6 +63,27 @@ Json json_of(const Finding& finding) {
           {"holds", finding.holds()},
           {"notes", finding.notes},
           {"measurements", std::move(measurements)}};
+}
+
+// What is least and nearest of all bounds, as sentences.
+std::string extremes_text(const StabilityReport& report) {
+  std::int64_t fewest = 0;
+  double nearest = -1.0;
+  std::string where;
+  for (const MachineFindings& machine : report.machines)
+    for (const Finding& finding : machine.findings)
+      for (const Measurement& m : finding.measurements) {
+        if (finding.random && (fewest == 0 || m.inputs < fewest)) fewest = m.inputs;
+        const double part = m.measured / m.bound;
+        if (!(m.bound > 0.0) || !std::isfinite(part) || part <= nearest) continue;
+        nearest = part;
+        where = fmt::format("{}: {}: {}", machine.file, finding.name, m.what);
+      }
+  std::string text;
+  if (fewest > 0)
+    text += fmt::format("fewest random inputs of a bound: {}\n", grouped(static_cast<std::uint64_t>(fewest)));
+  if (!where.empty()) text += fmt::format("nearest to its bound: {:.4g} % ({})\n", 100 * nearest, where);
+  return text;
 }
 
 }  // namespace
@@ -72,6 +96,13 @@ std::size_t StabilityReport::bounds() const {
   std::size_t count = 0;
   for (const MachineFindings& machine : machines)
     for (const Finding& finding : machine.findings) count += finding.measurements.size();
+  return count;
+}
+
+std::int64_t StabilityReport::inputs() const {
+  std::int64_t count = 0;
+  for (const MachineFindings& machine : machines)
+    for (const Finding& finding : machine.findings) count += finding.inputs;
   return count;
 }
 
@@ -91,8 +122,9 @@ std::string findings_text(const MachineFindings& machine, std::uint64_t seed) {
 
 std::string verdict_text(const StabilityReport& report) {
   const std::vector<std::string> broken = report.broken();
-  std::string text =
-      fmt::format("{}; cases with a broken one: {}\n", counted(report.bounds(), "bound", "bounds"), broken.size());
+  std::string text = extremes_text(report);
+  text += fmt::format("{}, {}; cases with a broken one: {}\n", counted(report.bounds(), "bound", "bounds"),
+                      counted(static_cast<std::uint64_t>(report.inputs()), "input", "inputs"), broken.size());
   for (const std::string& one : broken) text += fmt::format("broken: {}\n", one);
   return text;
 }
@@ -109,6 +141,7 @@ std::string stability_json(const StabilityReport& report) {
                      {"kind", "stability"},
                      {"seed", report.seed},
                      {"bounds", report.bounds()},
+                     {"inputs", report.inputs()},
                      {"broken", report.broken()},
                      {"machines", std::move(machines)}};
   return json.dump(2) + '\n';

@@ -37,14 +37,20 @@ class StabilityCommandTest : public ProgramTest {
   }
 };
 
+// A thousandth of what scripts/nightly tries.
 TEST_F(StabilityCommandTest, EveryBoundHoldsOnTheDefaultMachines) {
-  const Outcome outcome = stability({kQuadratic, kImogene, kAdaptive, "--seed", "7", "--tries", "8"});
+  const Outcome outcome = stability({kQuadratic, kImogene, kAdaptive, "--seed", "7", "--inputs", "100000"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.err, IsEmpty());
   EXPECT_THAT(outcome.out, Not(HasSubstr("BROKEN")));
   for (const auto& entry : std::filesystem::directory_iterator(kConfigs + "/hard_cases"))
     EXPECT_THAT(outcome.out, HasSubstr(entry.path().stem().string().append(" ("))) << "no machine has such a step";
   EXPECT_THAT(outcome.out, EndsWith("cases with a broken one: 0\n"));
+  // "218 bounds, 100,098 inputs; ..."
+  std::string count = outcome.out.substr(outcome.out.rfind(" bounds, ") + 9);
+  std::erase(count, ',');
+  EXPECT_GE(std::stoll(count), 100'000);
+  EXPECT_LT(std::stoll(count), 110'000);
 }
 
 struct Published {
@@ -112,6 +118,27 @@ TEST_F(StabilityCommandTest, JsonHasWhatTheTablesHave) {
   EXPECT_THAT(late.out, HasSubstr(kImogene + ": adder_carries: ep1.carry_clock\""));
   EXPECT_THAT(late.out, HasSubstr("\"holds\": false"));
   EXPECT_EQ(with({"--json", "no/such/folder/found.json"}).exit_code, 4);
+}
+
+// Each bound says on how many inputs it was checked, and the sum counts each input once: of the two bounds of a
+// triangle it is one, of the paths of 18 widths each has its own.
+TEST_F(StabilityCommandTest, CountsInputs) {
+  const std::string triangles = stability({kQuadratic, "--case", "triangles_level", "--tries", "5", "--json", "-"}).out;
+  EXPECT_THAT(triangles, AllOf(HasSubstr("\"bounds\": 2,"), HasSubstr("\"inputs\": 5,")));
+  EXPECT_THAT(stability({kQuadratic, "--case", "triangles_level", "--tries", "5"}).out,
+              HasSubstr("2 bounds, 5 inputs; "));
+  EXPECT_THAT(stability({kQuadratic, "--case", "forward_differences", "--tries", "5"}).out,
+              HasSubstr("18 bounds, 126 inputs; "));  // and the two worst paths
+  EXPECT_THAT(stability({kQuadratic, "--case", "watertight_fan"}).out, HasSubstr("1 bound, 1 input; "));
+  EXPECT_THAT(stability({kQuadratic, "--case", "triangles_level", "--case", "forward_differences", "--tries", "5"}).out,
+              AllOf(HasSubstr("fewest random inputs of a bound: 5\n"), HasSubstr("nearest to its bound: ")));
+  const std::vector<std::string> many{kQuadratic, "--case", "forward_differences", "--case", "triangles_level",
+                                      "--inputs", "5000"};
+  EXPECT_EQ(stability(many).out, stability(many).out);
+  EXPECT_EQ(stability({kQuadratic, "--inputs", "5000", "--tries", "5"}).exit_code, 2);
+  EXPECT_EQ(stability({kQuadratic, "--inputs", "0"}).exit_code, 2);
+  // More than frames may be: scripts/nightly asks for 100 million.
+  EXPECT_EQ(stability({kQuadratic, "--case", "watertight_fan", "--inputs", "100000000"}).exit_code, 0);
 }
 
 TEST_F(StabilityCommandTest, RefusesWhatItDoesNotKnow) {
