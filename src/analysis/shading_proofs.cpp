@@ -227,7 +227,7 @@ Proof prove_specular_tables(const ShadingParameters& p, std::int64_t exponent) {
   const std::vector<double> exact = powers(p, exponent);
   Table table;
   return prove(std::uint64_t{coded_one(p)} + 1, exact.size(),
-               display_scale(p) * (p.arithmetic == Arithmetic::centred ? 1.5 : 2.0), [&](std::uint64_t ks) {
+               display_scale(p) * (p.arithmetic == Arithmetic::centred ? 1.5 : 3.0), [&](std::uint64_t ks) {
                  fill(p, path, static_cast<std::uint32_t>(ks), Fill::fast, table);
                  return specular_error(p, static_cast<std::uint32_t>(ks), exact, table);
                });

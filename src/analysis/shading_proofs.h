@@ -37,8 +37,9 @@ Proof prove_diffuse_tables(const shading::ShadingParameters& parameters);
 Proof sample_diffuse_tables(const shading::ShadingParameters& parameters, Numbers& numbers, std::int64_t tables);
 
 // A level of a specular table against Ks x^E at the centre of the index's interval (literal: i / (entries - 1)), each
-// constant standing for every Ks that is coded so. Levels of 0..255. Closed form: 3/2 for three roundings of a half,
-// literal 2.
+// constant standing for every Ks that is coded so. Levels of 0..255. Closed form: 3/2 for three roundings of a half;
+// literal 3: half a level of the power, half of the code of Ks, the floor, and less than one because a code of
+// 2^level_bits - 1 stands for 1 and multiplies by less.
 Proof prove_specular_tables(const shading::ShadingParameters& parameters, std::int64_t exponent);
 Proof sample_specular_tables(const shading::ShadingParameters& parameters, std::int64_t exponent, Numbers& numbers,
                              std::int64_t tables);
