@@ -11,6 +11,7 @@
 #include "src/cli/progress.h"
 #include "src/cli/usage.h"
 #include "src/report/error_section.h"
+#include "src/report/error_summaries.h"
 #include "src/report/file_names.h"
 #include "src/report/number_text.h"
 #include "src/report/output_directory.h"
@@ -92,6 +93,13 @@ void RenderCommand::declare(CLI::App& app) {
   app.add_flag("--host-figures", host_figures_, "report time and memory of the simulation itself");
   app.add_flag("--no-reference", no_reference_, "do not render the exact pictures, measure no error");
   app.add_flag("--blame", blame_, "find the step that made each wrong pixel wrong: a table, a channel and a picture");
+  CLI::Option* perceptual = app.add_flag("--perceptual", perceptual_,
+                                         "measure FLIP and CIEDE2000 too, against every reference: it takes long");
+  validated(app.add_option("--pixels-per-degree", pixels_per_degree_, "how near the eye is, for FLIP, 1 to 1000")
+                ->capture_default_str()
+                ->type_name("N")
+                ->needs(perceptual),
+            pixels_a_degree);
   validated(app.add_option("--timeline-frames", timeline_frames_, "write timeline.json, of these displayed frames")
                 ->type_name("A..B"),
             dotted_range);
@@ -107,6 +115,7 @@ run::Options RenderCommand::run_options() const {
     const auto [first, last] = dotted_range_of(text);
     return run::NumberRange{first, last};
   };
+  if (perceptual_) options.perceptual_pixels_per_degree = pixels_per_degree_;
   if (!timeline_frames_.empty() || !timeline_lines_.empty())
     options.timeline = run::TimelineRange{range(timeline_frames_), range(timeline_lines_)};
   return options;
@@ -123,6 +132,8 @@ ExitCode RenderCommand::run() {
     throw InputError(Diagnostic{"--require-psnr", 0, "", "nothing is measured with --no-reference"});
   if (blame_ && no_reference_)
     throw InputError(Diagnostic{"--blame", 0, "", "nothing is compared with --no-reference"});
+  if (perceptual_ && no_reference_)
+    throw InputError(Diagnostic{"--perceptual", 0, "", "nothing is measured with --no-reference"});
   report::OutputDirectory::remove_on_signals();
   const run::Inputs inputs = run::read_inputs(machine_, scene_, overrides_);
   report::OutputDirectory directory(output_directory());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/cli/command.h"
+#include "src/reference/flip.h"
 #include "src/run/simulate.h"
 
 namespace rastertlm::cli {
@@ -28,6 +29,8 @@ class RenderCommand : public Command {
   bool host_figures_ = false;
   bool no_reference_ = false;
   bool blame_ = false;
+  bool perceptual_ = false;
+  double pixels_per_degree_ = reference::kDefaultPixelsPerDegree;
 
   std::string timeline_frames_;
   std::string timeline_lines_;

@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{4} << 30;  // of addresses, not of memory
 constexpr std::size_t kPage = 4096;
 constexpr std::size_t kKeyDigits = 64;
-// Three levels and a depth in double, an object and a coverage count.
-constexpr std::size_t kPixelBytes = 4 * sizeof(double) + 2 * sizeof(std::uint32_t);
+// Three levels and a depth in double, an object and a coverage count, region and edges.
+constexpr std::size_t kPixelBytes = 4 * sizeof(double) + 2 * sizeof(std::uint32_t) + 2;
 
 template <class T>
 unsigned char* put(unsigned char* at, const std::vector<T>& values) {
@@ -73,7 +73,9 @@ bool SharedPictures::read(const std::string& key, frame::ExactFrame& picture) co
     const unsigned char* at = get(one.pixels(), picture.rgb, 3 * pixels);
     at = get(at, picture.depth, pixels);
     at = get(at, picture.object, pixels);
-    get(at, picture.coverage, pixels);
+    at = get(at, picture.coverage, pixels);
+    at = get(at, picture.region, pixels);
+    get(at, picture.edges, pixels);
     return true;
   }
   return false;
@@ -91,7 +93,9 @@ void SharedPictures::write(const std::string& key, const frame::ExactFrame& pict
     unsigned char* at = put(one.pixels(), picture.rgb);
     at = put(at, picture.depth);
     at = put(at, picture.object);
-    put(at, picture.coverage);
+    at = put(at, picture.coverage);
+    at = put(at, picture.region);
+    put(at, picture.edges);
     one.whole.store(1, std::memory_order_release);
     return;
   }

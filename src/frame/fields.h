@@ -22,6 +22,11 @@ inline void copy_lines(const ExactFrame& from, std::size_t first_line, std::size
   copy(from.object, into.object, 1);
   copy(from.depth, into.depth, 1);
   copy(from.coverage, into.coverage, 1);
+  copy(from.region, into.region, 1);
+  copy(from.edges, into.edges, 1);
+  // What lies below a line is of the other picture.
+  if (step > 1)
+    for (std::uint8_t& edges : into.edges) edges &= kEdgeToTheRight;
 }
 
 }  // namespace rastertlm::frame

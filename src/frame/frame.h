@@ -31,6 +31,20 @@ struct Frame {
   }
 };
 
+// The part of an exact picture that a pixel belongs to: one each, of several the last. How the parts are told apart is
+// said in src/reference/regions.h.
+enum class Region : std::uint8_t {
+  none,         // nothing is seen there
+  inside,       // of a surface
+  highlights,   // where it shines
+  silhouettes,  // beside the edge of what is seen, on both sides of it
+};
+inline constexpr std::size_t kRegions = 4;
+
+// Edges of triangles that lie between a pixel and the next, on a surface that goes on beyond them.
+inline constexpr std::uint8_t kEdgeToTheRight = 1;
+inline constexpr std::uint8_t kEdgeBelow = 2;
+
 // The exact picture: display values in double, before rounding, 0..255.
 struct ExactFrame {
   std::size_t columns = 0;
@@ -39,6 +53,8 @@ struct ExactFrame {
   std::vector<std::uint32_t> object;  // 0 background, objects count from 1
   std::vector<double> depth;          // 0 near .. 1 far; 1 where nothing is seen
   std::vector<std::uint32_t> coverage;
+  std::vector<Region> region;
+  std::vector<std::uint8_t> edges;  // kEdgeToTheRight | kEdgeBelow
 
   std::size_t pixels() const { return columns * lines; }
   void resize(std::size_t new_columns, std::size_t new_lines) {
@@ -48,6 +64,8 @@ struct ExactFrame {
     object.assign(pixels(), 0);
     depth.assign(pixels(), 1.0);
     coverage.assign(pixels(), 0);
+    region.assign(pixels(), Region::none);
+    edges.assign(pixels(), 0);
   }
 };
 

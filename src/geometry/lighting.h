@@ -59,7 +59,7 @@ T integer_power(T base, int exponent) {
 }
 
 // Whoever wants to know which way the equation went is told, for every light in order, whether it lights the point and
-// whether it shines on it.
+// whether it shines on it; and, who has a function for it, what a light that shines adds, a channel.
 struct Unobserved {
   void operator()(bool /*lit*/, bool /*shines*/) const {}
 };
@@ -92,7 +92,11 @@ Vector3<T> illumination(const Reflectance& surface, std::span<const LightSource>
     const T power = shines ? integer_power(highlight, surface.exponent) : T(0.0);
     for (int c = 0; c < 3; ++c) {
       if (lit) sum[c] += T(surface.diffuse[c]) * T(light.diffuse_intensity[c]) * cosine;
-      if (shines) sum[c] += T(surface.specular[c]) * T(light.specular_intensity[c]) * power;
+      if (shines) {
+        const T shine = T(surface.specular[c]) * T(light.specular_intensity[c]) * power;
+        if constexpr (requires { observer.shine(c, shine); }) observer.shine(c, shine);
+        sum[c] += shine;
+      }
     }
   }
   return sum;

@@ -99,12 +99,6 @@ LevelFigures compare(std::span<const Level> first, std::span<const Level> second
   return figures;
 }
 
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
 std::vector<double> shown_levels(std::span<const double> levels) {
   std::vector<double> shown(levels.size());
   std::transform(levels.begin(), levels.end(), shown.begin(), [](double v) { return std::clamp(v, 0.0, 255.0); });
@@ -139,12 +133,20 @@ PerceptualFigures compare_as_seen(std::size_t columns, std::size_t lines, std::s
   PerceptualFigures figures;
   figures.pixels_per_degree = pixels_per_degree;
   figures.flip = flip_map(columns, lines, shown_first, shown_second, pixels_per_degree);
-  figures.flip_mean = mean(figures.flip);
-  figures.flip_p95 = percentile(figures.flip, 95.0);
   figures.ciede2000 = ciede2000_map(shown_first, shown_second);
-  figures.ciede2000_mean = mean(figures.ciede2000);
-  figures.ciede2000_p99 = percentile(figures.ciede2000, 99.0);
+  static_cast<SeenFigures&>(figures) = seen_figures(figures.flip, figures.ciede2000);
   return figures;
+}
+
+SeenFigures seen_figures(const std::vector<double>& flip, const std::vector<double>& ciede2000) {
+  return {mean(flip), percentile(flip, 95.0), mean(ciede2000), percentile(ciede2000, 99.0)};
+}
+
+double mean(const std::vector<double>& values) {
+  if (values.empty()) throw std::invalid_argument("mean: of nothing");
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
 }
 
 double percentile(std::vector<double> values, double percent) {

@@ -26,15 +26,20 @@ LevelFigures compare_levels(std::span<const std::uint8_t> first, std::span<const
 LevelFigures compare_levels(std::span<const double> first, std::span<const double> second);
 
 // A percentile p is the least value that p percent of the pixels do not exceed.
-struct PerceptualFigures {
-  double pixels_per_degree = kDefaultPixelsPerDegree;
+struct SeenFigures {
   double flip_mean = 0.0;  // 0 no difference is seen .. 1
   double flip_p95 = 0.0;
   double ciede2000_mean = 0.0;  // 1: just seen
   double ciede2000_p99 = 0.0;
+};
+struct PerceptualFigures : SeenFigures {
+  double pixels_per_degree = kDefaultPixelsPerDegree;
   std::vector<double> flip;       // of each pixel
   std::vector<double> ciede2000;  // likewise
 };
+
+// Of so many pixels' values; there is at least one.
+SeenFigures seen_figures(const std::vector<double>& flip, const std::vector<double>& ciede2000);
 
 // The same pixels as sRGB, levels outside 0..255 as the nearest within. The first picture is FLIP's reference, though
 // FLIP is symmetric. Asked for apart, for its cost. std::invalid_argument as flip_map.
@@ -43,5 +48,8 @@ PerceptualFigures compare_as_seen(std::size_t columns, std::size_t lines, std::s
 
 // The least of the values that `percent` (0 < percent <= 100) of them do not exceed; there is at least one.
 double percentile(std::vector<double> values, double percent);
+
+// The mean of the values; there is at least one.
+double mean(const std::vector<double>& values);
 
 }  // namespace rastertlm::reference

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "src/base/errors.h"
+#include "src/reference/shine_observer.h"
 
 namespace rastertlm::reference {
 namespace {
@@ -53,6 +54,11 @@ glm::dvec3 PieceLight::normal_at(const Piece& piece, const std::array<double, 2>
 }
 
 glm::dvec3 PieceLight::levels(const Piece& piece, const std::array<double, 2>& on_screen) const {
+  float specular = 0.0F;
+  return levels(piece, on_screen, specular);
+}
+
+glm::dvec3 PieceLight::levels(const Piece& piece, const std::array<double, 2>& on_screen, float& specular) const {
   glm::dvec3 viewer(0.0, 0.0, 1.0);
   glm::dvec3 position(0.0);
   std::array<double, 2> weights = on_screen;
@@ -62,8 +68,11 @@ glm::dvec3 PieceLight::levels(const Piece& piece, const std::array<double, 2>& o
     if (viewer_at_eye_) viewer = geometry::normalised<double>(-position);
   }
   const glm::dvec3 normal = geometry::normalised<double>(normal_at(piece, weights));
-  const glm::dvec3 light = geometry::illumination<double>(
-      surfaces_[piece.material], std::span<const LightSource>(lights_), rules_, normal, viewer, position);
+  glm::dvec3 shine(0.0);
+  const glm::dvec3 light =
+      geometry::illumination<double>(surfaces_[piece.material], std::span<const LightSource>(lights_), rules_, normal,
+                                     viewer, position, ShineObserver{shine});
+  specular = largest_level(shine);
   return {std::clamp(kFullScale * light.x, 0.0, kFullScale), std::clamp(kFullScale * light.y, 0.0, kFullScale),
           std::clamp(kFullScale * light.z, 0.0, kFullScale)};
 }

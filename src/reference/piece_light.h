@@ -19,6 +19,8 @@ class PieceLight {
   // Levels 0..255, clamped and not rounded. `on_screen`: weights of the second and third corner where the point is
   // seen; they may lie outside the piece.
   glm::dvec3 levels(const Piece& piece, const std::array<double, 2>& on_screen) const;
+  // The same; `specular` takes the largest of the levels that specular light adds to a channel.
+  glm::dvec3 levels(const Piece& piece, const std::array<double, 2>& on_screen, float& specular) const;
 
   // What the equation is given; `normal` of piece at those weights is not of unit length.
   static glm::dvec3 normal_at(const Piece& piece, const std::array<double, 2>& weights);

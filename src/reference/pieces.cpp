@@ -80,12 +80,10 @@ class Assembler {
         snaps_(snaps) {}
 
   template <class Take>
-  void add(const ClipTriangle<double>& triangle, std::uint32_t number, std::uint16_t material, const Take& take) const {
+  void add(const ClipTriangle<double>& triangle, const Piece& what, const Take& take) const {
     const Polygon<double> polygon = drawn_polygon(triangle);
     for (std::size_t k = 1; k + 1 < polygon.size; ++k) {
-      Piece piece;
-      piece.object = number;
-      piece.material = material;
+      Piece piece = what;
       place(piece, {polygon.corners[0], polygon.corners[k], polygon.corners[k + 1]});
       take(piece);
     }
@@ -133,9 +131,14 @@ geometry::FrameGrid cut_all(const scene::Scene& scene, const scene::Pose& pose, 
   std::uint32_t number = 0;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Mesh& mesh = scene.objects[o].mesh;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      assembler.add(triangle_of(vertices[o], mesh.triangles[t]), ++number, mesh.material[t],
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      Piece what;
+      what.object = ++number;
+      what.material = mesh.material[t];
+      what.body = static_cast<std::uint32_t>(o);
+      assembler.add(triangle_of(vertices[o], mesh.triangles[t]), what,
                     [&](Piece& piece) { take(piece, scene.objects[o].two_sided); });
+    }
   }
   return grid;
 }

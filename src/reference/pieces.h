@@ -16,6 +16,7 @@ namespace rastertlm::reference {
 struct Piece {
   std::uint32_t object = 0;                                 // number of the triangle, from 1
   std::uint16_t material = 0;                               // an index of Scene::materials
+  std::uint32_t body = 0;                                   // an index of Scene::objects
   std::array<geometry::ScreenVertex<double>, 3> corners{};  // normals towards the viewer's side, not of unit length
   std::array<geometry::SnappedPoint, 3> snapped{};          // Reference::snapped only
   std::array<glm::dvec3, 3> eye_positions{};                // Reference::true_model, or with lights at points

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "src/reference/coverage.h"
 #include "src/reference/piece_light.h"
 #include "src/reference/pieces.h"
+#include "src/reference/regions.h"
 
 namespace rastertlm::reference {
 namespace {
@@ -21,6 +23,44 @@ struct Seen {
 
 double interpolated(double a, double b, double c, const std::array<double, 2>& weights) {
   return a + weights[0] * (b - a) + weights[1] * (c - a);
+}
+
+// The depth of a piece's plane, beyond its edges too.
+class DepthPlane {
+ public:
+  explicit DepthPlane(const Piece& piece) : from_(piece.corners[0]) {
+    const auto& [a, b, c] = piece.corners;
+    const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    across_ = ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) / area;
+    down_ = ((c.z - a.z) * (b.x - a.x) - (b.z - a.z) * (c.x - a.x)) / area;
+  }
+  double at(std::size_t column, std::size_t line) const {
+    return from_.z + across_ * (static_cast<double>(column) - from_.x) + down_ * (static_cast<double>(line) - from_.y);
+  }
+  // Of depth, the most that it changes from a pixel to one beside it.
+  double slope() const { return std::abs(across_) + std::abs(down_); }
+
+ private:
+  const geometry::ScreenVertex<double>& from_;
+  double across_;
+  double down_;
+};
+
+// Of the depth range: surfaces that are no farther apart are not told apart.
+constexpr double kLeastGap = 1.0 / 65536.0;
+
+// Whether the planes neither meet between two neighbouring pixels nor come as near as their slopes may bring them
+// within a pixel: then one hides the other, and is no neighbour of it.
+bool surface_ends(const Piece& first, const Piece& second, std::size_t pixel, std::size_t neighbour,
+                  std::size_t columns) {
+  if (first.body != second.body) return true;
+  const DepthPlane a(first);
+  const DepthPlane b(second);
+  const auto gap = [&](std::size_t at) { return b.at(at % columns, at / columns) - a.at(at % columns, at / columns); };
+  const double here = gap(pixel);
+  const double there = gap(neighbour);
+  if ((here <= 0.0) != (there <= 0.0)) return false;
+  return std::min(std::abs(here), std::abs(there)) > a.slope() + b.slope() + kLeastGap;
 }
 
 // Corner positions in the number type of the edge functions, and the distance of two samples.
@@ -87,12 +127,17 @@ frame::ExactFrame render(const scene::Scene& scene, const scene::Pose& pose, con
     else
       draw(piece, index, plain_coverage(piece), out, seen);
   }
+  std::vector<float> specular(out.pixels(), 0.0F);
   for (std::size_t pixel = 0; pixel < out.pixels(); ++pixel) {
     const Seen& here = seen[pixel];
     const glm::dvec3 levels =
-        here.piece == 0 ? scene.background : light.levels(drawn.list[here.piece - 1], here.weights);
+        here.piece == 0 ? scene.background : light.levels(drawn.list[here.piece - 1], here.weights, specular[pixel]);
     for (int c = 0; c < 3; ++c) out.rgb[3 * pixel + static_cast<std::size_t>(c)] = levels[c];
   }
+  mark_regions(out, specular, [&](std::size_t pixel, std::size_t neighbour) {
+    return surface_ends(drawn.list[seen[pixel].piece - 1], drawn.list[seen[neighbour].piece - 1], pixel, neighbour,
+                        out.columns);
+  });
   return out;
 }
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "src/geometry/lighting.h"
+#include "src/reference/regions.h"
+#include "src/reference/shine_observer.h"
 
 namespace rastertlm::reference {
 namespace {
@@ -71,6 +73,7 @@ frame::ExactFrame render_spheres(const scene::Scene& scene, const scene::Pose& p
     const glm::dvec4 point = clip_to_eye * glm::dvec4(x, y, z, 1.0);
     return glm::dvec3(point) / point.w;
   };
+  std::vector<float> specular(out.pixels(), 0.0F);
   for (std::size_t line = 0; line < lines; ++line)
     for (std::size_t column = 0; column < columns; ++column) {
       const std::size_t pixel = line * columns + column;
@@ -87,8 +90,11 @@ frame::ExactFrame render_spheres(const scene::Scene& scene, const scene::Pose& p
                                             m.exponent};
         const glm::dvec3 normal = (point - sphere.centre) / sphere.radius;
         const glm::dvec3 viewer = viewer_at_eye ? geometry::normalised<double>(-point) : glm::dvec3(0, 0, 1);
-        levels = glm::clamp(255.0 * geometry::illumination<double>(surface, lights, rules, normal, viewer, point), 0.0,
-                            255.0);
+        glm::dvec3 shine(0.0);
+        levels = glm::clamp(
+            255.0 * geometry::illumination<double>(surface, lights, rules, normal, viewer, point, ShineObserver{shine}),
+            0.0, 255.0);
+        specular[pixel] = largest_level(shine);
         const glm::dvec4 clip = pose.eye_to_clip * glm::dvec4(point, 1.0);
         out.depth[pixel] = clip.z / clip.w;
         out.object[pixel] = static_cast<std::uint32_t>(hit->sphere + 1);
@@ -96,6 +102,8 @@ frame::ExactFrame render_spheres(const scene::Scene& scene, const scene::Pose& p
       }
       for (int c = 0; c < 3; ++c) out.rgb[3 * pixel + static_cast<std::size_t>(c)] = levels[c];
     }
+  // Spheres that do not show the same at two pixels are others.
+  mark_regions(out, specular, [](std::size_t, std::size_t) { return true; });
   return out;
 }
 

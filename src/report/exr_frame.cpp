@@ -1,5 +1,7 @@
 #include "src/report/exr_frame.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "src/image/image_files.h"
@@ -38,6 +40,7 @@ void write_exr_frame(const std::string& path, const frame::Frame& shown, const f
 
   std::vector<float> exact;
   std::vector<float> error;
+  std::vector<std::uint32_t> region;
   if (ideal != nullptr) {
     exact.resize(values);
     error.resize(values);
@@ -47,6 +50,10 @@ void write_exr_frame(const std::string& path, const frame::Frame& shown, const f
     }
     add_interleaved(channels, {"reference.R", "reference.G", "reference.B"}, exact);
     add_interleaved(channels, {"error.R", "error.G", "error.B"}, error);
+    region.resize(ideal->region.size());
+    std::transform(ideal->region.begin(), ideal->region.end(), region.begin(),
+                   [](frame::Region one) { return static_cast<std::uint32_t>(one); });
+    channels.push_back({kRegionChannel, ChannelType::u32, region.data(), 0});
   }
   if (labels != nullptr) channels.push_back({labels->channel, ChannelType::u32, labels->values.data(), 0});
   image::write_exr(path, shown.columns, shown.lines, channels);

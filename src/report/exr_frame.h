@@ -8,10 +8,12 @@
 
 namespace rastertlm::report {
 
+inline constexpr const char* kRegionChannel = "reference.region";
+
 // Channels: R G B, level / 255; Z, the depth word (a float holds 24 bits); N.X N.Y N.Z, the normal in eye space, 0
 // where nothing is seen; object.id, 0 the background; material.id; coverage.count; and with a reference, reference.R G
-// B, the exact level / 255 not rounded, and error.R G B, R - reference.R. `ideal` may be null, and so may `labels`,
-// whose channel has unsigned integers. Throws OutputError.
+// B, the exact level / 255 not rounded, error.R G B, R - reference.R, and reference.region, a number of frame::Region.
+// `ideal` may be null, and so may `labels`, whose channel has unsigned integers. Throws OutputError.
 void write_exr_frame(const std::string& path, const frame::Frame& shown, const frame::ExactFrame* ideal,
                      const LabelledPicture* labels = nullptr);
 

@@ -281,7 +281,9 @@ bool is_truth_figure(const std::string& text) {
 
 bool is_error_figure(const std::string& text) {
   const std::optional<Path> path = path_of(text);
-  return path && name_of(*path).starts_with("images[].error");
+  if (!path) return false;
+  const std::string name = name_of(*path);
+  return name.starts_with("images[].error") || name.starts_with("errors[]");
 }
 
 std::string figure_unit(const std::string& text) {

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
 
-#include "src/report/error_section.h"
+#include "src/report/error_summaries.h"
+#include "src/report/schema_errors.h"
 
 namespace rastertlm::report {
 namespace {
@@ -27,12 +31,69 @@ constexpr const char* kErrorColumns[] = {"compared_pixels",
                                          "psnr_outline_db",
                                          "over_one_level_percent"};
 
+// Names and texts of figures, as report.json has them; units in the names.
+class FigureTexts {
+ public:
+  explicit FigureTexts(bool only_later, std::string prefix = {})
+      : only_later_(only_later), prefix_(std::move(prefix)) {}
+  template <class Whole>
+  void value(const char* key, const Field& field, const Whole& number) {
+    add(key, field, fmt::format("{}", number));
+  }
+  void metric(const char* key, const Field& field, const std::optional<double>& number) {
+    add(key, field, number ? fmt::format("{:.6g}", *number) : "");
+  }
+  const std::string& names() const { return names_; }
+  const std::string& texts() const { return texts_; }
+
+ private:
+  void add(const std::string& key, const Field& field, const std::string& text) {
+    if (only_later_ && !field.later) return;
+    constexpr std::string_view kCovered = "covered_";
+    std::string name = key.starts_with(kCovered) ? key.substr(kCovered.size()) : key;
+    if (std::string_view(field.unit) == "pixels" && !name.ends_with("_pixels")) name += "_pixels";
+    names_ += ',' + prefix_ + name;
+    texts_ += ',' + text;
+  }
+  bool only_later_;
+  std::string prefix_;
+  std::string names_;
+  std::string texts_;
+};
+
+struct Columns {
+  std::string names;
+  std::string texts;
+};
+
+// Of the whole picture what the columns above have not, and everything of its parts.
+Columns further_columns(const std::string& reference, reference::ErrorFigures errors) {
+  FigureTexts whole(true, reference + '_');
+  schema::visit_part(whole, errors);
+  Columns columns{whole.names(), whole.texts()};
+  const auto add = [&](const char* name, reference::RegionFigures& part) {
+    FigureTexts texts(false, fmt::format("{}_{}_", reference, name));
+    schema::visit_part(texts, part);
+    columns.names += texts.names();
+    columns.texts += texts.texts();
+  };
+  add("inside", errors.inside);
+  add("silhouettes", errors.silhouettes);
+  add("highlights", errors.highlights);
+  return columns;
+}
+
 std::string error_fields(const reference::ErrorFigures* e) {
-  if (e == nullptr) return std::string(std::size(kErrorColumns), ',');
+  if (e == nullptr) {
+    const std::string names = further_columns("", {}).names;
+    return std::string(std::size(kErrorColumns) + static_cast<std::size_t>(std::count(names.begin(), names.end(), ',')),
+                       ',');
+  }
   return fmt::format(",{},{},{},{},{},{},{:.6g},{:.6g},{},{},{:.6g}", e->compared, e->covered_missing, e->covered_extra,
                      e->wrong_object, e->max_level, e->max_level_same_object, e->rmse_level, e->rmse_unrounded_level,
                      e->psnr_db ? fmt::format("{:.6g}", *e->psnr_db) : "",
-                     e->psnr_outline_db ? fmt::format("{:.6g}", *e->psnr_outline_db) : "", e->over_one_level_percent);
+                     e->psnr_outline_db ? fmt::format("{:.6g}", *e->psnr_outline_db) : "", e->over_one_level_percent) +
+         further_columns("", *e).texts;
 }
 
 }  // namespace
@@ -40,8 +101,10 @@ std::string error_fields(const reference::ErrorFigures* e) {
 std::string frames_csv(const run::Result& result) {
   const std::vector<std::string> references = references_of(result);
   std::string text = kFrameColumns;
-  for (const std::string& name : references)
+  for (const std::string& name : references) {
     for (const char* column : kErrorColumns) text += fmt::format(",{}_{}", name, column);
+    text += further_columns(name, {}).names;
+  }
   text += '\n';
   for (const run::FrameFigures& f : result.frames) {
     text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", f.frame,

@@ -59,9 +59,17 @@ class Writer {
     Writer writer(object_[key]);
     inside(writer, *what);
   }
+  template <class T, class Inside>
+  void derived_list(const char* key, const char* description, std::vector<T>& elements, const Inside& inside) {
+    list(key, description, elements, inside);
+  }
   template <class Inside>
   void optional_object(const char* key, const char* description, bool there, const Inside& inside) {
     if (there) object(key, description, inside);
+  }
+  template <class Inside>
+  void later_object(const char* key, const char* description, const Inside& inside) {
+    object(key, description, inside);
   }
 
  private:
@@ -79,22 +87,28 @@ class Reader {
   Reader(const Json& object, std::string path, const std::string& file, Diagnostics& diagnostics)
       : object_(object), path_(std::move(path)), file_(file), diagnostics_(diagnostics) {}
 
-  void value(const char* key, const Field&, std::string& what) {
+  void value(const char* key, const Field& field, std::string& what) {
+    if (is_of_later(key, field)) return;
     if (const Json* json = find(key, &Json::is_string, "text")) what = json->get<std::string>();
   }
-  void value(const char* key, const Field&, bool& what) {
+  void value(const char* key, const Field& field, bool& what) {
+    if (is_of_later(key, field)) return;
     if (const Json* json = find(key, &Json::is_boolean, "true or false")) what = json->get<bool>();
   }
   template <class T>
-  void value(const char* key, const Field&, T& what) requires std::is_integral_v<T> {
+  void value(const char* key, const Field& field, T& what) requires std::is_integral_v<T> {
+    if (is_of_later(key, field)) return;
     const bool is_signed = std::is_signed_v<T>;
     if (const Json* json = find(key, is_signed ? &Json::is_number_integer : &Json::is_number_unsigned, "an integer"))
       what = json->get<T>();
   }
-  void value(const char* key, const Field&, double& what) { number(key, what); }
-  void metric(const char* key, const Field&, double& what) { number(key, what); }
-  void metric(const char* key, const Field&, std::optional<double>& what) {
+  void value(const char* key, const Field& field, double& what) { metric(key, field, what); }
+  void metric(const char* key, const Field& field, double& what) {
+    if (!is_of_later(key, field)) number(key, what);
+  }
+  void metric(const char* key, const Field& field, std::optional<double>& what) {
     what.reset();
+    if (is_of_later(key, field)) return;
     if (object_.contains(key) && object_[key].is_null()) return;
     double read = 0.0;
     if (number(key, read)) what = read;
@@ -138,13 +152,21 @@ class Reader {
   }
   template <class T, class Inside>
   void derived_object(const char*, const char*, T*, const Inside&) {}
+  template <class T, class Inside>
+  void derived_list(const char*, const char*, std::vector<T>&, const Inside&) {}
   template <class Inside>
   void optional_object(const char* key, const char* description, bool& there, const Inside& inside) {
     there = object_.contains(key);
     if (there) object(key, description, inside);
   }
+  template <class Inside>
+  void later_object(const char* key, const char* description, const Inside& inside) {
+    if (object_.contains(key)) object(key, description, inside);
+  }
 
  private:
+  // The report was written before there was such a key.
+  bool is_of_later(const char* key, const Field& field) const { return field.later && !object_.contains(key); }
   // A null number is one that is not finite.
   bool number(const char* key, double& what) {
     if (object_.contains(key) && object_[key].is_null()) {

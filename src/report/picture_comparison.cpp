@@ -6,10 +6,12 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 
 #include "src/base/errors.h"
 #include "src/image/image_files.h"
 #include "src/report/error_image.h"
+#include "src/report/exr_frame.h"
 #include "src/report/text_file.h"
 #include "src/report/text_table.h"
 
@@ -53,6 +55,59 @@ void read_channel(const PictureFile& file, const image::ReadChannel& channel, do
 
 std::string plain(double value) { return fmt::format("{:.6g}", value); }
 
+struct NamedRegion {
+  frame::Region region;
+  const char* name;
+};
+constexpr NamedRegion kNamedRegions[] = {{frame::Region::inside, "inside"},
+                                         {frame::Region::silhouettes, "silhouettes"},
+                                         {frame::Region::highlights, "highlights"},
+                                         {frame::Region::none, "background"}};
+
+// What of the values, so many a pixel, is of pixels in that region.
+std::vector<double> values_in(frame::Region region, const std::vector<frame::Region>& regions,
+                              const std::vector<double>& values) {
+  const std::size_t each = values.size() / regions.size();
+  std::vector<double> there;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (regions[i / each] == region) there.push_back(values[i]);
+  return there;
+}
+
+std::vector<PartComparison> parts_of(const std::vector<frame::Region>& regions, const LevelPicture& a,
+                                     const LevelPicture& b, const reference::PerceptualFigures& seen) {
+  std::vector<PartComparison> parts;
+  if (3 * regions.size() != a.levels.size()) return parts;
+  for (const NamedRegion& named : kNamedRegions) {
+    const std::vector<double> first = values_in(named.region, regions, a.levels);
+    if (first.empty()) continue;
+    parts.push_back({named.region, first.size() / 3,
+                     reference::compare_levels(first, values_in(named.region, regions, b.levels)),
+                     reference::seen_figures(values_in(named.region, regions, seen.flip),
+                                             values_in(named.region, regions, seen.ciede2000))});
+  }
+  return parts;
+}
+
+std::string parts_text(const std::vector<PartComparison>& parts) {
+  if (parts.empty()) return "";
+  std::vector<Column> columns{{"of which"}};
+  for (const char* name :
+       {"pixels", "largest", "over one, %", "over two, %", "RMSE", "PSNR", "FLIP", "95 %", "CIEDE2000", "99 %"})
+    columns.push_back({name, Align::right});
+  TextTable table(columns);
+  for (const PartComparison& part : parts) {
+    const auto* const named = std::find_if(std::begin(kNamedRegions), std::end(kNamedRegions),
+                                           [&](const NamedRegion& one) { return one.region == part.region; });
+    const reference::LevelFigures& level = part.by_level;
+    table.row({named->name, fmt::format("{}", part.pixels), plain(level.max_level), plain(level.over_one_level_percent),
+               plain(level.over_two_levels_percent), plain(level.rmse_level),
+               level.psnr_db ? plain(*level.psnr_db) : "infinite", plain(part.as_seen.flip_mean),
+               plain(part.as_seen.flip_p95), plain(part.as_seen.ciede2000_mean), plain(part.as_seen.ciede2000_p99)});
+  }
+  return '\n' + table.text();
+}
+
 }  // namespace
 
 LevelPicture read_level_picture(const PictureFile& file) {
@@ -70,6 +125,9 @@ LevelPicture read_level_picture(const PictureFile& file) {
     }
     read_channel(file, *channel, picture.levels.data() + c);
   }
+  if (const image::ReadChannel* channel = image.find(kRegionChannel); channel != nullptr)
+    for (const std::uint32_t region : channel->u32)
+      picture.regions.push_back(region < frame::kRegions ? static_cast<frame::Region>(region) : frame::Region::none);
   return picture;
 }
 
@@ -79,9 +137,13 @@ Comparison compare_pictures(const PictureFile& first, const PictureFile& second,
   if (a.columns != b.columns || a.lines != b.lines)
     refuse(second.path, fmt::format("has {}x{} pixels and {} has {}x{}: pictures of one size are compared", b.columns,
                                     b.lines, first.path, a.columns, a.lines));
-  Comparison comparison{a.columns, a.lines, reference::compare_levels(a.levels, b.levels),
+  Comparison comparison{a.columns,
+                        a.lines,
+                        reference::compare_levels(a.levels, b.levels),
                         reference::compare_as_seen(a.columns, a.lines, a.levels, b.levels, pixels_per_degree),
-                        std::vector<double>(a.levels.size())};
+                        std::vector<double>(a.levels.size()),
+                        {}};
+  comparison.parts = parts_of(a.regions.empty() ? b.regions : a.regions, a, b, comparison.as_seen);
   std::transform(a.levels.begin(), a.levels.end(), b.levels.begin(), comparison.differences.begin(),
                  [](double x, double y) { return std::abs(x - y); });
   return comparison;
@@ -101,9 +163,11 @@ std::string comparison_text(const Comparison& comparison) {
   table.row({"CIEDE2000, mean", plain(seen.ciede2000_mean), "1: just seen"});
   table.row({"CIEDE2000, 99th percentile", plain(seen.ciede2000_p99), "1: just seen"});
   return fmt::format(
-      "{}{}x{} pixels, every channel of each. A level is 1/255 of a channel. LDR-FLIP at {:.6g} pixels a degree; FLIP "
-      "and CIEDE2000 read levels as sRGB, D65.\n",
-      table.text(), comparison.columns, comparison.lines, seen.pixels_per_degree);
+      "{}{}{}x{} pixels, every channel of each. A level is 1/255 of a channel. LDR-FLIP at {:.6g} pixels a degree; "
+      "FLIP "
+      "and CIEDE2000 read levels as sRGB, D65.\n{}",
+      table.text(), parts_text(comparison.parts), comparison.columns, comparison.lines, seen.pixels_per_degree,
+      comparison.parts.empty() ? "Which parts are silhouettes or highlights, neither picture says.\n" : "");
 }
 
 bool is_error_map_name(const std::string& path) {

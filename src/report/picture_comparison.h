@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "src/frame/frame.h"
 #include "src/reference/picture_metrics.h"
 
 namespace rastertlm::report {
@@ -21,18 +22,28 @@ struct LevelPicture {
   std::size_t columns = 0;
   std::size_t lines = 0;
   std::vector<double> levels;
+  std::vector<frame::Region> regions = {};  // of each pixel; empty where the file does not say
 };
 
 // Other channels are not looked at. Throws InputError where there are no such channels, where they hold what is no
 // level, or where the file cannot be read.
 LevelPicture read_level_picture(const PictureFile& file);
 
+// Of the pixels of one region.
+struct PartComparison {
+  frame::Region region = frame::Region::none;
+  std::size_t pixels = 0;
+  reference::LevelFigures by_level;
+  reference::SeenFigures as_seen;
+};
+
 struct Comparison {
   std::size_t columns = 0;
   std::size_t lines = 0;
   reference::LevelFigures by_level;
   reference::PerceptualFigures as_seen;
-  std::vector<double> differences;  // |difference| in levels, 3 a pixel
+  std::vector<double> differences;    // |difference| in levels, 3 a pixel
+  std::vector<PartComparison> parts;  // where a picture says which regions its exact picture has (frame_*.exr)
 };
 
 // Throws InputError as above, and where the sizes differ.

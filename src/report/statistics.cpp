@@ -61,6 +61,14 @@ class Describer {
     Describer describer(path_ + key + '.', found_);
     inside(describer, element);
   }
+  template <class T, class Inside>
+  void derived_list(const char* key, const char* description, std::vector<T>& elements, const Inside& inside) {
+    list(key, description, elements, inside);
+  }
+  template <class Inside>
+  void later_object(const char* key, const char* description, const Inside& inside) {
+    object(key, description, inside);
+  }
   template <class Inside>
   void optional_object(const char* key, const char* description, bool, const Inside& inside) {
     object(key, description, inside);

@@ -262,6 +262,9 @@ std::string modelled_section(const run::Result& result) {
   text += sentence_line(fmt::format("Fragments: {} into the {} = {} kept + {} hidden.", grouped(m.fragments_in),
                                     has_boards(result) ? "decision unit" : "depth test", grouped(m.fragments_kept),
                                     grouped(m.fragments_hidden)));
+  if (m.exact_wanted > 0)
+    text += sentence_line(fmt::format("Exact pictures: {} compared with, {} of them of a view that was not at hand.",
+                                      grouped(m.exact_wanted), grouped(m.exact_made)));
   for (const std::string& sentence : m.left_out) text += sentence_line("Left out: " + sentence);
   return text;
 }
@@ -272,7 +275,9 @@ std::string host_section(const Contents& contents) {
   return heading("The simulation itself") +
          sentence_line(fmt::format("{:.3g} s, {} simulated pixel clocks a second, {:.4g} MB at most.", h.wall_seconds,
                                    quantity(std::floor(h.simulated_clocks_per_second)),
-                                   static_cast<double>(h.peak_memory_bytes) / 1e6));
+                                   static_cast<double>(h.peak_memory_bytes) / 1e6)) +
+         sentence_line(fmt::format("Apart from that: {:.3g} s for exact pictures, {:.3g} s for the figures of errors.",
+                                   h.exact_seconds, h.figures_seconds));
 }
 
 std::string warnings_section(const run::Result& result) {

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <utility>
 #include <variant>
 
+#include "modules/set_up/word_format.h"
+#include "src/base/digest.h"
 #include "src/reference/sphere_renderer.h"
 #include "src/run/inputs.h"
 
@@ -20,8 +23,33 @@ std::string options_text(const reference::RenderOptions& o) {
                      grid_text(o.grids.on_screen), grid_text(o.grids.guarded), o.lights_at_points, o.specular_mean);
 }
 
-frame::ExactFrame from(ExactStore* store, const std::string& key, const std::function<frame::ExactFrame()>& render) {
-  return store == nullptr ? render() : store->picture(key, render);
+void add_bytes(std::string& text, const double* values, std::size_t count) {
+  text.append(reinterpret_cast<const char*>(values), count * sizeof(double));
+}
+template <class Matrix>
+void add_matrix(std::string& text, const Matrix& matrix) {
+  for (int column = 0; column < Matrix::length(); ++column)
+    add_bytes(text, &matrix[column][0], static_cast<std::size_t>(Matrix::col_type::length()));
+}
+
+// Everything of the pose, bit by bit.
+std::string pose_bytes(const scene::Pose& pose) {
+  std::string bytes;
+  add_matrix(bytes, pose.world_to_eye);
+  add_matrix(bytes, pose.eye_to_clip);
+  for (const glm::dmat4& matrix : pose.object_to_eye) add_matrix(bytes, matrix);
+  for (const glm::dmat3& matrix : pose.normal_to_eye) add_matrix(bytes, matrix);
+  for (const scene::Light& light : pose.lights) {
+    bytes += light.kind == scene::LightKind::point ? 'p' : 'd';
+    add_bytes(bytes, &light.vector[0], 3);
+    add_bytes(bytes, &light.intensity[0], 3);
+  }
+  return bytes;
+}
+
+reference::DepthWords depth_words(const set_up::WordFormat& format) {
+  return {static_cast<double>(set_up::near_depth(format)), static_cast<double>(set_up::far_depth(format)),
+          static_cast<double>(set_up::depth_margin(format))};
 }
 
 }  // namespace
@@ -53,16 +81,48 @@ std::vector<reference::RenderOptions> exact_options(const quadratic::Machine& ma
   return all;
 }
 
-frame::ExactFrame ExactPictures::render(const scene::Pose& pose, std::int64_t animation_frame,
-                                        const reference::RenderOptions& options) const {
-  const std::string key = fmt::format("{} {} {}", scene_.digest, animation_frame, options_text(options));
-  return from(store_, key, [&] { return reference::render(scene_, pose, options); });
+std::optional<reference::DepthWords> depth_words(const imogene::Machine& machine) {
+  return depth_words({static_cast<int>(machine.object_processor.word_bits),
+                      static_cast<std::size_t>(machine.video.columns), static_cast<std::size_t>(machine.video.lines)});
 }
 
-frame::ExactFrame ExactPictures::render_spheres(const scene::Pose& pose, std::int64_t animation_frame,
-                                                std::size_t columns, std::size_t lines) const {
-  const std::string key = fmt::format("{} {} spheres {}x{}", scene_.digest, animation_frame, columns, lines);
-  return from(store_, key, [&] { return reference::render_spheres(scene_, pose, columns, lines); });
+std::optional<reference::DepthWords> depth_words(const quadratic::Machine& machine) {
+  if (!machine.frame_store.depth_test) return std::nullopt;
+  return depth_words(machine.depth_format());
+}
+
+reference::MeterOptions meter_options(const std::string& reference, const std::optional<reference::DepthWords>& depth,
+                                      const Options& options) {
+  return {reference, depth, options.perceptual_pixels_per_degree};
+}
+
+void ExactPictures::keep(const std::string& key, const std::function<frame::ExactFrame()>& render, KeptPicture& kept,
+                         const KeptPicture* other) {
+  ++wanted_;
+  std::string digest = sha256_hex(key);
+  if (kept.digest == digest) return;
+  if (other != nullptr && other->digest == digest) {
+    kept = *other;
+    return;
+  }
+  ++made_;
+  const auto start = std::chrono::steady_clock::now();
+  kept.picture = store_ == nullptr ? render() : store_->picture(digest, render);
+  time_ += std::chrono::steady_clock::now() - start;
+  kept.digest = std::move(digest);
+}
+
+void ExactPictures::render(const scene::Pose& pose, const reference::RenderOptions& options, KeptPicture& kept,
+                           const KeptPicture* other) {
+  keep(
+      fmt::format("{} {} ", scene_.digest, options_text(options)) + pose_bytes(pose),
+      [&] { return reference::render(scene_, pose, options); }, kept, other);
+}
+
+void ExactPictures::render_spheres(const scene::Pose& pose, std::size_t columns, std::size_t lines, KeptPicture& kept) {
+  keep(
+      fmt::format("{} spheres {}x{} ", scene_.digest, columns, lines) + pose_bytes(pose),
+      [&] { return reference::render_spheres(scene_, pose, columns, lines); }, kept, nullptr);
 }
 
 ExactNeeds exact_needs(const Inputs& inputs, std::uint64_t frames) {

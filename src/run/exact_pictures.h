@@ -1,16 +1,19 @@
 // The exact pictures of a simulation: rendered by itself, or shared with simulations of the same scene on the same
-// screen.
+// screen. One of a scene and a view is made once.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "platforms/imogene/machine.h"
 #include "platforms/quadratic/machine.h"
 #include "src/frame/frame.h"
+#include "src/reference/error_meter.h"
 #include "src/reference/renderer.h"
 #include "src/run/simulate.h"
 #include "src/scene/scene.h"
@@ -21,19 +24,43 @@ namespace rastertlm::run {
 std::vector<reference::RenderOptions> exact_options(const imogene::Machine& machine);
 std::vector<reference::RenderOptions> exact_options(const quadratic::Machine& machine);
 
+// What their depth words mean, and by how much a plane's word may be off; none where depths are not compared.
+std::optional<reference::DepthWords> depth_words(const imogene::Machine& machine);
+std::optional<reference::DepthWords> depth_words(const quadratic::Machine& machine);
+
+// How the errors against that reference are measured.
+reference::MeterOptions meter_options(const std::string& reference, const std::optional<reference::DepthWords>& depth,
+                                      const Options& options);
+
+// A picture, and the SHA-256 of what it is of: the scene, what moves in it at that frame, the screen and the options.
+struct KeptPicture {
+  std::string digest;
+  frame::ExactFrame picture;
+};
+
 class ExactPictures {
  public:
   ExactPictures(const scene::Scene& scene, ExactStore* store) : scene_(scene), store_(store) {}
-  // Of the scene's animation frame, whose pose that is.
-  frame::ExactFrame render(const scene::Pose& pose, std::int64_t animation_frame,
-                           const reference::RenderOptions& options) const;
+  // The picture of the scene in that pose, into `kept`; where that holds it already, or `other` does, nothing is made.
+  void render(const scene::Pose& pose, const reference::RenderOptions& options, KeptPicture& kept,
+              const KeptPicture* other = nullptr);
   // Of the spheres that its meshes stand for.
-  frame::ExactFrame render_spheres(const scene::Pose& pose, std::int64_t animation_frame, std::size_t columns,
-                                   std::size_t lines) const;
+  void render_spheres(const scene::Pose& pose, std::size_t columns, std::size_t lines, KeptPicture& kept);
+
+  // How many pictures were wanted, and how many of them were not there yet.
+  std::uint64_t wanted() const { return wanted_; }
+  std::uint64_t made() const { return made_; }
+  std::chrono::steady_clock::duration time() const { return time_; }  // that they took
 
  private:
+  void keep(const std::string& key, const std::function<frame::ExactFrame()>& render, KeptPicture& kept,
+            const KeptPicture* other);
+
   const scene::Scene& scene_;
   ExactStore* store_;
+  std::uint64_t wanted_ = 0;
+  std::uint64_t made_ = 0;
+  std::chrono::steady_clock::duration time_{};
 };
 
 }  // namespace rastertlm::run

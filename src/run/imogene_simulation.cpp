@@ -12,7 +12,7 @@
 #include "src/config/writer.h"
 #include "src/frame/fields.h"
 #include "src/parameter/table.h"
-#include "src/reference/metrics.h"
+#include "src/reference/error_meter.h"
 #include "src/run/background_warning.h"
 #include "src/run/deadlines.h"
 #include "src/run/exact_pictures.h"
@@ -26,41 +26,48 @@
 namespace rastertlm::run {
 namespace {
 
-// The exact pictures of the pose that is shown; a pose that is shown again is not rendered again. Of interlaced video
+// The exact pictures of the pose that is shown; a view that is shown again is not rendered again. Of interlaced video
 // they are woven of the poses of two fields, as the screen's picture is.
 class Exact {
  public:
-  Exact(const imogene::Machine& machine, const scene::Scene& scene, ExactStore* store)
-      : source_(scene, store), fields_(machine.video.interlaced ? 2 : 1) {
-    for (const reference::RenderOptions& options : exact_options(machine)) pictures_.push_back({options});
+  Exact(const imogene::Machine& machine, const scene::Scene& scene, const Options& options)
+      : source_(scene, options.exact), fields_(machine.video.interlaced ? 2 : 1) {
+    for (const reference::RenderOptions& one : exact_options(machine))
+      pictures_.push_back(
+          {one, reference::ErrorMeter(meter_options(reference::to_string(one.kind), depth_words(machine), options))});
   }
 
   void show(const imogene::ShownFrame& shown) {
     for (Picture& picture : pictures_) {
-      if (shown.updated) picture.of_pose = source_.render(shown.pose, shown.animation_frame, picture.options);
-      if (fields_ > 1) frame::copy_lines(picture.of_pose, shown.field, fields_, picture.woven);
+      source_.render(shown.pose, picture.options, picture.of_pose);
+      if (fields_ > 1) frame::copy_lines(picture.of_pose.picture, shown.field, fields_, picture.woven);
     }
   }
-  std::vector<reference::ErrorFigures> errors(const frame::Frame& shown) const {
+  std::vector<reference::ErrorFigures> errors(const frame::Frame& shown) {
+    const auto start = std::chrono::steady_clock::now();
     std::vector<reference::ErrorFigures> errors;
-    for (const Picture& picture : pictures_)
-      errors.push_back(reference::compare(shown, on_screen(picture), reference::to_string(picture.options.kind)));
+    for (Picture& picture : pictures_) errors.push_back(picture.meter.measure(shown, on_screen(picture)));
+    time_ += std::chrono::steady_clock::now() - start;
     return errors;
   }
+  const ExactPictures& source() const { return source_; }
+  HostTime time() const { return time_; }  // of the figures
   const frame::ExactFrame& ideal() const { return on_screen(pictures_.front()); }
 
  private:
   struct Picture {
     reference::RenderOptions options;
-    frame::ExactFrame of_pose = {};
+    reference::ErrorMeter meter;
+    KeptPicture of_pose = {};
     frame::ExactFrame woven = {};  // where the video is interlaced
   };
   const frame::ExactFrame& on_screen(const Picture& picture) const {
-    return fields_ > 1 ? picture.woven : picture.of_pose;
+    return fields_ > 1 ? picture.woven : picture.of_pose.picture;
   }
   ExactPictures source_;
   std::size_t fields_;
   std::vector<Picture> pictures_;
+  HostTime time_{};
 };
 
 // What a displayed frame is from its first field on.
@@ -102,7 +109,7 @@ class DisplayedFrames {
  public:
   DisplayedFrames(const imogene::Machine& machine, const scene::Scene& scene, const Options& options,
                   const FrameSink& sink, std::vector<FrameFigures>& frames)
-      : exact_(machine, scene, options.exact), reference_(options.reference), sink_(sink), frames_(frames) {}
+      : exact_(machine, scene, options), reference_(options.reference), sink_(sink), frames_(frames) {}
 
   void add(const imogene::Imogene& platform, const imogene::ShownFrame& shown, const frame::Frame& pixels) {
     if (!meter_) meter_.emplace(platform);
@@ -119,6 +126,7 @@ class DisplayedFrames {
 
   // When all have been added.
   Deadlines deadlines(imogene::Imogene& platform) { return meter_->close(platform); }
+  const Exact& exact() const { return exact_; }
 
  private:
   Exact exact_;
@@ -192,10 +200,14 @@ Result simulate_imogene(const imogene::Machine& machine, const Inputs& inputs, c
   result.memories = memory_figures(*platform);
   result.logic = logic_figures(*platform);
   result.modelled = modelled_figures(*platform, scene, options.model_everything);
+  if (options.reference) result.flip_pixels_per_degree = options.perceptual_pixels_per_degree;
+  result.modelled.exact_wanted = displayed.exact().source().wanted();
+  result.modelled.exact_made = displayed.exact().source().made();
   add_warnings(*platform, platform->shader(), result);
   if (timeline) result.timeline = std::make_shared<const Timeline>(timeline->close(result));
   if (options.host_figures)
-    result.host = host_figures(std::chrono::steady_clock::now() - start - outside,
+    result.host = host_figures(std::chrono::steady_clock::now() - start - outside, displayed.exact().source().time(),
+                               displayed.exact().time(),
                                options.frames * platform->timing().fields * platform->timing().frame.count());
   return result;
 }

@@ -12,7 +12,7 @@
 #include "src/base/digest.h"
 #include "src/config/writer.h"
 #include "src/parameter/table.h"
-#include "src/reference/metrics.h"
+#include "src/reference/error_meter.h"
 #include "src/reference/sphere_renderer.h"
 #include "src/run/background_warning.h"
 #include "src/run/drawing_limits.h"
@@ -91,36 +91,52 @@ FrameFigures figures_of(std::uint64_t number, const quadratic::ShownFrame& shown
 // The exact pictures of the pose that is shown, under the names that the report has them by.
 class Exact {
  public:
-  Exact(const quadratic::Machine& machine, const scene::Scene& scene, ExactStore* store)
-      : scene_(scene), source_(scene, store), options_(exact_options(machine)) {}
-  std::vector<reference::ErrorFigures> errors(const scene::Pose& pose, std::int64_t animation_frame,
-                                              const frame::Frame& shown) {
+  Exact(const quadratic::Machine& machine, const scene::Scene& scene, const Options& options)
+      : scene_(scene), source_(scene, options.exact), options_(exact_options(machine)) {
+    for (const char* name : kNames)
+      kinds_.push_back({reference::ErrorMeter(meter_options(name, depth_words(machine), options)), {}});
+  }
+  std::vector<reference::ErrorFigures> errors(const scene::Pose& pose, const frame::Frame& shown) {
     std::vector<reference::ErrorFigures> errors;
-    for (std::size_t i = 0; i < kKinds.size(); ++i) {
-      pictures_[i] = source_.render(pose, animation_frame, options_.at(i));
-      errors.push_back(reference::compare(shown, pictures_[i], reference::to_string(kKinds[i])));
+    for (std::size_t i = 0; i < options_.size(); ++i) {
+      source_.render(pose, options_[i], kinds_[i].exact, &kinds_.front().exact);  // the true model may be its own
+      errors.push_back(measured(kinds_[i], shown));
     }
-    if (reference::is_of_spheres(scene_)) errors.push_back(sphere_errors(pose, animation_frame, shown));
+    if (reference::is_of_spheres(scene_)) errors.push_back(sphere_errors(pose, shown));
     return errors;
   }
-  const frame::ExactFrame& ideal() const { return pictures_[0]; }
+  const frame::ExactFrame& ideal() const { return kinds_.front().exact.picture; }
+  const ExactPictures& source() const { return source_; }
+  HostTime time() const { return time_; }  // of the figures
 
  private:
-  static constexpr std::array<reference::Reference, 2> kKinds{reference::Reference::ideal,
-                                                              reference::Reference::true_model};
+  // The order of exact_options, and behind them the spheres.
+  static constexpr std::array<const char*, 3> kNames{"ideal", "true", "sphere"};
+  struct Kind {
+    reference::ErrorMeter meter;
+    KeptPicture exact;
+  };
+  reference::ErrorFigures measured(Kind& kind, const frame::Frame& shown) {
+    const auto start = std::chrono::steady_clock::now();
+    reference::ErrorFigures figures = kind.meter.measure(shown, kind.exact.picture);
+    time_ += std::chrono::steady_clock::now() - start;
+    return figures;
+  }
   // Pixels that both show are of the same thing: a sphere has no triangles to tell apart.
-  reference::ErrorFigures sphere_errors(const scene::Pose& pose, std::int64_t animation_frame,
-                                        const frame::Frame& shown) const {
-    frame::ExactFrame picture = source_.render_spheres(pose, animation_frame, options_[0].columns, options_[0].lines);
-    for (std::size_t pixel = 0; pixel < picture.pixels(); ++pixel)
-      if (picture.object[pixel] != 0 && shown.object[pixel] != 0) picture.object[pixel] = shown.object[pixel];
-    return reference::compare(shown, picture, "sphere");
+  reference::ErrorFigures sphere_errors(const scene::Pose& pose, const frame::Frame& shown) {
+    Kind& spheres = kinds_.back();
+    source_.render_spheres(pose, options_[0].columns, options_[0].lines, spheres.exact);
+    std::vector<std::uint32_t>& object = spheres.exact.picture.object;
+    for (std::size_t pixel = 0; pixel < object.size(); ++pixel)
+      if (object[pixel] != 0 && shown.object[pixel] != 0) object[pixel] = shown.object[pixel];
+    return measured(spheres, shown);
   }
 
   const scene::Scene& scene_;
   ExactPictures source_;
   std::vector<reference::RenderOptions> options_;
-  std::array<frame::ExactFrame, 2> pictures_;
+  std::vector<Kind> kinds_;
+  HostTime time_{};
 };
 
 Modelled modelled_figures(const quadratic::Quadratic& platform, const scene::Scene& scene) {
@@ -171,14 +187,14 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   const auto start = std::chrono::steady_clock::now();
   std::chrono::steady_clock::duration outside{};  // spent in references and sinks, which is not the simulation's
   Result result;
-  Exact exact(machine, scene, options.exact);
+  Exact exact(machine, scene, options);
   std::optional<QuadraticTimeline> timeline;
   const auto show = [&](const quadratic::ShownFrame& shown, const frame::Frame& pixels) {
     if (result.frames.size() >= options.frames) return;
     const auto entered = std::chrono::steady_clock::now();
     FrameFigures figures = figures_of(result.frames.size(), shown, pixels, static_cast<int>(machine.set_up.snap_bits));
     if (options.reference) {
-      figures.errors = exact.errors(shown.set_up.pose, shown.set_up.animation_frame, pixels);
+      figures.errors = exact.errors(shown.set_up.pose, pixels);
       add_highlight_recall(machine, scene, shown.set_up.pose, figures.highlight);
     }
     if (sink) sink({pixels, options.reference ? &exact.ideal() : nullptr, figures});
@@ -211,12 +227,15 @@ Result simulate_quadratic(const quadratic::Machine& machine, const Inputs& input
   result.memories = memory_figures(machine);
   result.logic = logic_figures(*platform);
   result.modelled = modelled_figures(*platform, scene);
+  if (options.reference) result.flip_pixels_per_degree = options.perceptual_pixels_per_degree;
+  result.modelled.exact_wanted = exact.source().wanted();
+  result.modelled.exact_made = exact.source().made();
   result.warnings = quadratic_warnings(*platform, options.frames);
   warn_of_background(result);
   if (timeline) result.timeline = std::make_shared<const Timeline>(timeline->close());
   if (options.host_figures)
-    result.host =
-        host_figures(std::chrono::steady_clock::now() - start - outside, frames * platform->timing().frame.count());
+    result.host = host_figures(std::chrono::steady_clock::now() - start - outside, exact.source().time(), exact.time(),
+                               frames * platform->timing().frame.count());
   return result;
 }
 

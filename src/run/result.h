@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "src/frame/frame.h"
-#include "src/reference/metrics.h"
+#include "src/reference/error_figures.h"
 #include "src/run/timeline.h"
 
 namespace rastertlm::run {
@@ -101,6 +101,8 @@ struct Modelled {
   std::uint64_t fragments_kept = 0;
   std::uint64_t fragments_hidden = 0;
   std::vector<std::string> left_out;  // sentences: what was not simulated because the scene does not need it
+  std::uint64_t exact_wanted = 0;     // exact pictures, of each reference and field
+  std::uint64_t exact_made = 0;       // of them, those whose view was not that of the picture before
 };
 
 // What is left of the display's deadlines, where it is least.
@@ -221,6 +223,8 @@ struct HostFigures {  // of the simulation itself; only reported when asked for
   double wall_seconds = 0.0;
   double simulated_clocks_per_second = 0.0;
   std::uint64_t peak_memory_bytes = 0;
+  double exact_seconds = 0.0;    // that the exact pictures took, not in wall_seconds
+  double figures_seconds = 0.0;  // and the figures of their differences
 };
 
 struct Result {
@@ -244,6 +248,7 @@ struct Result {
   std::vector<Logic> logic;
   Modelled modelled;
   std::vector<FrameFigures> frames;
+  std::optional<double> flip_pixels_per_degree;  // where FLIP and CIEDE2000 were asked for
   std::vector<std::string> warnings;
   HostFigures host;
   std::shared_ptr<const Timeline> timeline;  // where it was asked for; in no report

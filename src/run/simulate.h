@@ -21,7 +21,7 @@ namespace rastertlm::run {
 class ExactStore {
  public:
   virtual ~ExactStore() = default;
-  // The picture of that key; `render` makes it. Pictures of equal keys are equal.
+  // The picture of that key, 64 hexadecimal digits; `render` makes it. Pictures of equal keys are equal.
   virtual frame::ExactFrame picture(const std::string& key, const std::function<frame::ExactFrame()>& render) = 0;
 };
 
@@ -32,6 +32,8 @@ struct Options {
   bool host_figures = false;                   // fill Result::host
   ExactStore* exact = nullptr;                 // where exact pictures are looked for; none: each is rendered
   std::optional<TimelineRange> timeline = {};  // fill Result::timeline
+  // Measure FLIP and CIEDE2000 too, at so many pixels a degree. They take longer than everything else.
+  std::optional<double> perceptual_pixels_per_degree = {};
 };
 
 // A machine and a scene, read, checked and resolved.

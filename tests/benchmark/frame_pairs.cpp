@@ -11,7 +11,9 @@
 
 #include "platforms/imogene/imogene.h"
 #include "src/geometry/lighting.h"
-#include "src/reference/picture_metrics.h"
+#include "src/reference/error_meter.h"
+#include "src/reference/level_sums.h"
+#include "src/reference/renderer.h"
 #include "tests/benchmark/benchmark_scene.h"
 #include "tests/benchmark/plain_variants.h"
 
@@ -19,6 +21,7 @@ namespace rastertlm::benchmark {
 namespace {
 
 constexpr std::uint64_t kWarmFrames = 3;
+constexpr std::size_t kMostMeasuredErrors = 30;  // frames: an exact picture takes as long as a hundred of them
 
 // Nanoseconds that this thread has worked: what else the machine does in between is not counted.
 double worked() {
@@ -63,8 +66,8 @@ class Pairs {
 
   Measured run() {
     imogene::Options options;
-    options.frames = kWarmFrames + case_.pairs;
-    options.observe = false;
+    options.frames = kWarmFrames + (case_.errors ? std::min(case_.pairs, kMostMeasuredErrors) : case_.pairs);
+    options.observe = case_.errors;
     platform_ = std::make_unique<imogene::Imogene>(
         machine_, scene_, options,
         [this](const imogene::ShownFrame& shown, const frame::Frame& pixels) { show(shown, pixels); });
@@ -80,6 +83,7 @@ class Pairs {
     measured_.plain_set_up = median(set_up_);
     measured_.plain_spans = median(spans_);
     measured_.plain_shading = median(shading_);
+    measured_.levels = median(levels_);
     measured_.metrics = median(metrics_);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -93,9 +97,9 @@ class Pairs {
   void show(const imogene::ShownFrame& shown, const frame::Frame& pixels) {
     const double shown_at = worked();
     if (!shown.updated) ++measured_.repeated_frames;
+    if (case_.errors) return measure_error(shown, pixels);
     if (shown.frame >= kWarmFrames) simulated_.push_back(shown_at - started_);
     if (case_.plain) plain_frame(shown, pixels);
-    if (case_.plain) compare_with_last(shown, pixels);
     started_ = worked();
   }
 
@@ -118,14 +122,24 @@ class Pairs {
     shading_.push_back(parts.shading);
   }
 
-  void compare_with_last(const imogene::ShownFrame& shown, const frame::Frame& pixels) {
-    if (shown.frame >= kWarmFrames) {
-      const double start = worked();
-      const reference::LevelFigures figures = reference::compare_levels(last_, pixels.rgb);
-      metrics_.push_back(worked() - start);
-      if ((figures.max_level > 0.0) != (last_ != pixels.rgb)) throw std::runtime_error("wrong figures of two frames");
-    }
-    last_ = pixels.rgb;
+  void measure_error(const imogene::ShownFrame& shown, const frame::Frame& pixels) {
+    reference::RenderOptions options;
+    options.columns = pixels.columns;
+    options.lines = pixels.lines;
+    options.grids = imogene::snap_grids(machine_);
+    options.specular_mean = machine_.shading.specular_tables == 1;
+    const frame::ExactFrame exact = reference::render(scene_, shown.pose, options);
+    const double start = worked();
+    const reference::LevelComparison levels = reference::compare_frames(pixels, exact, rounded_);
+    const double between = worked();
+    const reference::ErrorFigures figures = meter_.measure(pixels, exact);
+    const double end = worked();
+    std::uint64_t compared = 0;
+    for (const reference::LevelSums& sums : levels.regions) compared += sums.compared;
+    if (compared == 0 || compared != figures.compared) throw std::runtime_error("wrong figures of two frames");
+    if (shown.frame < kWarmFrames) return;
+    levels_.push_back(between - start);
+    metrics_.push_back(end - between);
   }
 
   Case case_;
@@ -135,8 +149,9 @@ class Pairs {
   std::unique_ptr<plain::Loop> loop_;
   std::vector<std::uint8_t> rgb_;
   double started_ = 0.0;
-  std::vector<std::uint8_t> last_;  // the levels of the frame before
-  std::vector<double> simulated_, plain_, set_up_, spans_, shading_, metrics_;
+  std::vector<std::uint8_t> rounded_;
+  reference::ErrorMeter meter_{{"ideal"}};
+  std::vector<double> simulated_, plain_, set_up_, spans_, shading_, levels_, metrics_;
   Measured measured_;
 };
 
@@ -144,7 +159,9 @@ class Pairs {
 
 Measured measure(const Case& wanted) { return Pairs(wanted).run(); }
 
-Measured measure_apart(const Case& wanted) {
+namespace {
+
+Measured measure_in_child(const Case& wanted) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t child = fork();
@@ -166,6 +183,19 @@ Measured measure_apart(const Case& wanted) {
   waitpid(child, &status, 0);
   if (child < 0 || status != 0 || size != static_cast<ssize_t>(sizeof(measured)))
     throw std::runtime_error("a measurement failed");
+  return measured;
+}
+
+}  // namespace
+
+Measured measure_apart(const Case& wanted) {
+  Measured measured = measure_in_child(wanted);
+  if (!wanted.plain) return measured;
+  Case errors = wanted;
+  errors.errors = true;
+  const Measured of_errors = measure_in_child(errors);
+  measured.levels = of_errors.levels;
+  measured.metrics = of_errors.metrics;
   return measured;
 }
 

@@ -12,7 +12,8 @@ struct Case {
   std::size_t processors = 1024;  // a multiple of eight
   double pixels = 1.5 * 512 * 512;
   std::size_t pairs = 30;
-  bool plain = true;  // false: the simulation alone, for a profile or its memory
+  bool plain = true;    // false: the simulation alone, for a profile or its memory
+  bool errors = false;  // measure what figures of errors cost, and nothing else
   bool pipeline = false;
 };
 
@@ -23,7 +24,8 @@ struct Measured {
   double plain_set_up = 0.0;
   double plain_spans = 0.0;
   double plain_shading = 0.0;
-  double metrics = 0.0;  // the basic error figures of a frame and the one before it
+  double levels = 0.0;   // the basic error figures of a finished frame against its finished exact picture
+  double metrics = 0.0;  // all of them that are always reported: with edges of triangles and flicker
   std::uint64_t covered = 0;
   std::uint64_t visible = 0;
   std::uint64_t different_bytes = 0;  // of RGB, over all frames
@@ -36,7 +38,8 @@ struct Measured {
 // Once a process: SystemC allows one simulation.
 Measured measure(const Case& wanted);
 
-// The same in a child process.
+// The same in a child process, and in another one the figures of errors: they need all that is known of pixels, which
+// frames are not timed with.
 Measured measure_apart(const Case& wanted);
 
 }  // namespace rastertlm::benchmark

@@ -23,9 +23,9 @@ std::string processor_name() {
 }
 
 void print_head() {
-  fmt::print("{:>9} {:>10} {:>9} {:>9} | {:>9} {:>9} {:>6} | {:>8} {:>8} | {:>7} {:>7} {:>7} | {:>7} {:>9}\n",
+  fmt::print("{:>9} {:>10} {:>9} {:>9} | {:>9} {:>9} {:>6} | {:>8} {:>8} | {:>7} {:>7} {:>7} | {:>7} {:>7} {:>9}\n",
              "triangles", "processors", "covered", "visible", "simulated", "plain", "ratio", "ns/cov", "ns/vis",
-             "set-up", "spans", "shading", "metrics", "peak MB");
+             "set-up", "spans", "shading", "levels", "metrics", "peak MB");
 }
 
 // False where the pictures differ or the run measured nothing.
@@ -35,10 +35,10 @@ bool print_row(const Case& wanted) {
   const auto each = [&](std::uint64_t count) { return count == 0 ? 0.0 : m.plain / static_cast<double>(count); };
   fmt::print(
       "{:>9} {:>10} {:>9} {:>9} | {:>9.3f} {:>9.3f} {:>6.3f} | {:>8.3f} {:>8.3f} | {:>7.3f} {:>7.3f} {:>7.3f} | "
-      "{:>7.3f} {:>9.1f}\n",
+      "{:>7.3f} {:>7.3f} {:>9.1f}\n",
       wanted.triangles, wanted.processors, m.covered, m.visible, ms(m.simulated), ms(m.plain),
       m.plain > 0.0 ? m.ratio() : 0.0, each(m.covered), each(m.visible), ms(m.plain_set_up), ms(m.plain_spans),
-      ms(m.plain_shading), ms(m.metrics), static_cast<double>(m.peak_bytes) * 1e-6);
+      ms(m.plain_shading), ms(m.levels), ms(m.metrics), static_cast<double>(m.peak_bytes) * 1e-6);
   std::fflush(stdout);
   if (m.different_bytes != 0)
     fmt::print(stderr, "{} bytes of RGB differ in {} frames\n", m.different_bytes, m.frames_compared);

@@ -34,8 +34,9 @@ TEST_F(CommandTest, HelpAndVersionAreResults) {
   }
   const Outcome help = run({"render", "--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* option : {"--set", "--frames", "--out", "--require-rate", "--require-psnr", "--model-everything",
-                             "--host-figures", "--no-reference", "MACHINE", "SCENE"})
+  for (const char* option :
+       {"--set", "--frames", "--out", "--require-rate", "--require-psnr", "--model-everything", "--host-figures",
+        "--no-reference", "--perceptual", "--pixels-per-degree", "MACHINE", "SCENE"})
     EXPECT_THAT(help.out, HasSubstr(option));
 }
 
@@ -43,7 +44,8 @@ TEST_F(CommandTest, RefusesWordsThatItDoesNotKnowAndNamesTheNearest) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
       {{"rendr"}, "rastertlm: unknown sub-command 'rendr'; did you mean 'render'?\n"},
       {{"xyzzyxyzzy"},
-       "rastertlm: unknown sub-command 'xyzzyxyzzy'; known: render, explore, vectors, stability, report, compare, "
+       "rastertlm: unknown sub-command 'xyzzyxyzzy'; known: render, explore, vectors, stability, certify, report, "
+       "compare, "
        "describe\n"},
       {{"render", "machine.toml", "scene.toml", "--frame", "3"}, "did you mean '--frames'?"},
       {{"render", "machine.toml", "scene.toml", "--requir-rate=3"},
@@ -75,7 +77,10 @@ TEST_F(CommandTest, RefusesValuesOfOptions) {
                                                     {"--set", "video.columns"},
                                                     {"--out", ""},
                                                     {"--out"},
-                                                    {"--require-psnr", "30", "--no-reference"}};
+                                                    {"--require-psnr", "30", "--no-reference"},
+                                                    {"--perceptual", "--no-reference"},
+                                                    {"--pixels-per-degree", "67"},
+                                                    {"--perceptual", "--pixels-per-degree", "0.5"}};
   for (const auto& arguments : cases) {
     const Outcome outcome = render(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(arguments);
@@ -164,6 +169,29 @@ TEST_F(CommandTest, TellsOfTheHostOnlyWhenAsked) {
   EXPECT_THAT(file_text(in_work("a/report.json")), Not(HasSubstr("wall_seconds")));
   ASSERT_EQ(render({"--out", "b", "--host-figures"}).exit_code, 0);
   EXPECT_THAT(file_text(in_work("b/report.json")), HasSubstr("wall_seconds"));
+}
+
+TEST_F(CommandTest, MeasuresWhatTheEyeSeesWhenAsked) {
+  ASSERT_EQ(render({"--out", "a"}).exit_code, 0);
+  EXPECT_THAT(file_text(in_work("a/report.json")), HasSubstr("\"flip_pixels_per_degree\": null"));
+  ASSERT_EQ(render({"--out", "b", "--perceptual", "--pixels-per-degree", "30"}).exit_code, 0);
+  EXPECT_THAT(file_text(in_work("b/report.json")), HasSubstr("\"flip_pixels_per_degree\": 30"));
+  EXPECT_THAT(file_text(in_work("b/report.txt")), HasSubstr("at 30 pixels a degree"));
+}
+
+// The exact picture of a view is made once: of a still scene one a reference, of one that moves one a frame.
+TEST_F(CommandTest, ExactPicturesAreMadeOnceAView) {
+  const auto made = [&](const std::string& directory) {
+    const std::string report = file_text(in_work(directory + "/report.txt"));
+    const std::size_t at = report.find("Exact pictures: ");
+    return at == std::string::npos ? "none" : report.substr(at, report.find(" of them", at) - at);
+  };
+  ASSERT_EQ(render({"--out", "still", "--frames", "3"}).exit_code, 0);
+  EXPECT_EQ(made("still"), "Exact pictures: 9 compared with, 3");
+  write("scene.toml",
+        one_triangle() + "[[object.animation]]\ntype = \"spin\"\naxis = [0.0, 0.0, 1.0]\ndeg_per_frame = 5.0\n");
+  ASSERT_EQ(render({"--out", "moving", "--frames", "3"}).exit_code, 0);
+  EXPECT_EQ(made("moving"), "Exact pictures: 9 compared with, 9");
 }
 
 TEST_F(CommandTest, ReportMakesTheTextsAgain) {

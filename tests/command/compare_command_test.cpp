@@ -44,6 +44,7 @@ TEST_F(CompareTest, FiguresByHand) {
   EXPECT_EQ(row(outcome, "PSNR"), "47.4613 dB");
   EXPECT_THAT(outcome.out, HasSubstr("4x1 pixels"));
   EXPECT_THAT(outcome.out, HasSubstr("LDR-FLIP at 67 pixels a degree"));
+  EXPECT_THAT(outcome.out, HasSubstr("neither picture says"));
 }
 
 TEST_F(CompareTest, EqualAndOppositePictures) {
@@ -98,6 +99,14 @@ TEST_F(CompareTest, FramesOfARun) {
   const double part = reported(report, "compared") / (64.0 * 48.0);
   const double wanted = reported(report, "rmse_unrounded_level") * std::sqrt(part);
   EXPECT_GT(wanted, 0.01);
+  EXPECT_THAT(exact.out, HasSubstr("of which"));
+  const double inside = std::atof(row(exact, "inside").c_str());
+  const double silhouettes = std::atof(row(exact, "silhouettes").c_str());
+  EXPECT_GT(inside, 0.0);
+  EXPECT_GT(silhouettes, 0.0);
+  EXPECT_EQ(
+      inside + silhouettes + std::atof(row(exact, "highlights").c_str()) + std::atof(row(exact, "background").c_str()),
+      64.0 * 48.0);
   EXPECT_NEAR(std::atof(row(exact, "RMSE").c_str()), wanted, 1e-5 * wanted);
 }
 

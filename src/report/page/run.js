@@ -230,6 +230,30 @@ function errorSection() {
       note('Missing, extra and other triangle in pixels; largest and RMSE in levels (1/255 of a channel). ' +
           meanings.filter(([name]) => measured.some((image) => image.errors.some((error) => error.reference === name)))
               .map(([name, meaning]) => `${name}: ${meaning}`).join('; ') + '.'));
+  partsSection();
+}
+
+// Where the pictures differ: of all frames the worst, and the mean.
+function partsSection() {
+  const asSeen = report.flip_pixels_per_degree !== null;
+  const parts = [['everywhere', (errors) => errors], ['inside', (errors) => errors.inside],
+    ['silhouettes', (errors) => errors.silhouettes], ['highlights', (errors) => errors.highlights]];
+  const rows = (kind) => report.errors.flatMap((summary) => parts.map(([where, part]) => {
+    const error = part(summary[kind]);
+    return [summary.reference, where, quantity(error.compared), quantity(error.covered_missing), quantity(error.covered_extra),
+      quantity(error.wrong_object), quantity(error.wrong_order), quantity(error.max_level), quantity(error.rmse_level), quantity(error.psnr_db),
+      quantity(error.over_two_levels_percent), quantity(error.edge_jump_rms_level), quantity(error.flicker_rms_level),
+      ...(asSeen ? [error.flip_mean, error.flip_p95, error.ciede2000_mean, error.ciede2000_p99].map(quantity) : [])];
+  }));
+  const headers = ['reference', 'where', '>compared', '>missing', '>extra', '>other triangle', '>wrong order', '>largest', '>RMSE', '>PSNR, dB',
+    '>over two levels, %', '>slope at edges', '>flicker', ...(asSeen ? ['>FLIP', '>95 %', '>CIEDE2000', '>99 %'] : [])];
+  const many = report.images.length > 1;
+  section(many ? 'Where the pictures differ: the worst of all frames, and the mean' : 'Where the pictures differ',
+      table(headers, rows('worst')), many ? table(headers, rows('mean')) : null,
+      note('Silhouettes: two pixels on either side of where the exact picture\'s surface ends; highlights: of the others, those to which it adds 32 levels of ' +
+          'specular light; inside: the rest. Slope at edges: RMS in levels by which the slope of the levels jumps otherwise than it should where two ' +
+          'triangles of a surface meet (Mach bands). Flicker: RMS change of the error from frame to frame where the exact levels stand still.' +
+          (asSeen ? ` FLIP at ${quantity(report.flip_pixels_per_degree)} pixels a degree.` : '')));
 }
 
 function swatch(colour) {

@@ -149,6 +149,7 @@ inline void expect_exact(const Simulated& simulated, int largest_level, std::uin
     EXPECT_EQ(error.covered_missing, 0U) << "frame " << frame.frame;
     EXPECT_EQ(error.covered_extra, 0U) << "frame " << frame.frame;
     EXPECT_LE(error.wrong_object, wrong_objects) << "frame " << frame.frame;
+    EXPECT_EQ(error.wrong_order, 0U) << "frame " << frame.frame;
     EXPECT_LE(error.max_level_same_object, largest_level) << "frame " << frame.frame;
   }
 }

@@ -8,6 +8,26 @@
 
 namespace rastertlm::report {
 
+// Of a region of so many pixels.
+inline reference::RegionFigures example_part(std::uint64_t compared) {
+  reference::RegionFigures e;
+  e.compared = compared;
+  e.covered_missing = 1;
+  e.wrong_order = 1;
+  e.max_level = 3;
+  e.rmse_level = 0.25;
+  e.psnr_db = 60.5;
+  e.over_two_levels_percent = 0.75;
+  e.edges_measured = 31;
+  e.edge_jump_rms_level = 0.8125;
+  e.edge_jump_max_level = 2.0;
+  e.flip_mean = 0.0123;
+  e.flip_p95 = 0.0456;
+  e.ciede2000_mean = 0.111;
+  e.ciede2000_p99 = 1.222;
+  return e;
+}
+
 inline reference::ErrorFigures example_error(const std::string& reference, int largest) {
   reference::ErrorFigures e;
   e.reference = reference;
@@ -21,6 +41,16 @@ inline reference::ErrorFigures example_error(const std::string& reference, int l
   e.rmse_unrounded_level = 0.3333333333;
   e.psnr_db = 66.30123456;
   e.over_one_level_percent = 0.0123456789;
+  e.over_two_levels_percent = 0.00456;
+  e.wrong_order = 2;
+  e.edges_measured = 77;
+  e.edge_jump_rms_level = 0.625;
+  e.still_pixels = 51'000;
+  e.flicker_rms_level = 0.4375;
+  e.flicker_max_level = 2.0;
+  e.inside = example_part(51'000);
+  e.silhouettes = example_part(881);
+  e.highlights = example_part(120);
   return e;
 }
 
@@ -95,10 +125,12 @@ inline run::Result example_result() {
   r.memories = {{"specular table", 16, 4096, 8}};
   r.logic = {{"decision unit", 1023, "comparators"}};
   r.modelled = {1024, 896, 431, 8192,   2048,   43'008, 19'712,
-                896,  16,  1,   61'234, 52'003, 9'231,  {"second light: none in the scene"}};
+                896,  16,  1,   61'234, 52'003, 9'231,  {"second light: none in the scene"},
+                6,    3};
+  r.flip_pixels_per_degree = 67.0;
   r.frames = {example_frame(0), example_frame(1)};
   r.warnings = {"Nothing moves."};
-  r.host = {1.25, 266'666.4, 123'456'789};
+  r.host = {1.25, 266'666.4, 123'456'789, 0.75, 0.125};
   return r;
 }
 

@@ -25,6 +25,7 @@ class ExrFrameTest : public testing::Test {
     shown_.coverage = {0, 3};
     exact_.resize(2, 1);
     exact_.rgb = {0.0, 51.0, 204.0, 10.25, 20.0, 0.0};
+    exact_.region = {frame::Region::silhouettes, frame::Region::highlights};
   }
   void TearDown() override { std::filesystem::remove(path_); }
 
@@ -61,7 +62,8 @@ TEST_F(ExrFrameTest, HoldsEverythingThatIsKnownOfAPixel) {
   EXPECT_EQ(floats("reference.R"), (Floats{0.0F, static_cast<float>(10.25 / 255.0)})) << "not rounded to a level";
   EXPECT_EQ(floats("error.R"), (Floats{0.0F, static_cast<float>(-0.25 / 255.0)}));
   EXPECT_EQ(floats("error.B"), (Floats{0.2F, static_cast<float>(30.0 / 255.0)}));
-  EXPECT_EQ(channel_names().size(), 16U);
+  EXPECT_EQ(words("reference.region"), (Words{3, 2}));
+  EXPECT_EQ(channel_names().size(), 17U);
 }
 
 TEST_F(ExrFrameTest, HasNoReferenceChannelsWithoutOne) {

@@ -63,7 +63,13 @@ TEST(FramesCsv, HasARowAFrameWithEveryFigure) {
                                                                   {"ideal_psnr_db", "66.3012"},
                                                                   {"ideal_over_one_level_percent", "0.0123457"},
                                                                   {"ideal_missing_pixels", "2"},
-                                                                  {"ideal_extra_pixels", "3"}};
+                                                                  {"ideal_extra_pixels", "3"},
+                                                                  {"ideal_wrong_order_pixels", "2"},
+                                                                  {"true_flicker_rms_level", "0.4375"},
+                                                                  {"ideal_silhouettes_compared_pixels", "881"},
+                                                                  {"snapped_highlights_missing_pixels", "1"},
+                                                                  {"true_inside_psnr_db", "60.5"},
+                                                                  {"true_inside_ciede2000_p99", "1.222"}};
   for (const auto& [column, value] : expected) {
     ASSERT_TRUE(row.contains(column)) << column;
     EXPECT_EQ(row.at(column), value) << column;
@@ -78,6 +84,8 @@ TEST(FramesCsv, LeavesEmptyWhatWasNotMeasured) {
   const std::vector<Row> rows = rows_of(frames_csv(result));
   EXPECT_EQ(rows[0].at("host_slack_us"), "");
   EXPECT_EQ(rows[0].at("true_max_level"), "");
+  EXPECT_EQ(rows[0].at("true_highlights_rmse_level"), "");
+  EXPECT_EQ(rows[0].at("ideal_flip_mean"), "");
   EXPECT_EQ(rows[0].at("ideal_psnr_db"), "");
   EXPECT_EQ(rows[1].at("true_max_level"), "17");
 }

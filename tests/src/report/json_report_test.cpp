@@ -39,9 +39,10 @@ void add_paths(const Json& json, const std::string& path, std::set<std::string>&
 TEST(JsonReport, KeepsTheKeysOfSchema1InTheirOrder) {
   const Json json = example_json();
   EXPECT_EQ(keys_of(json),
-            (std::vector<std::string>{"schema", "platform", "config_digest", "scene_digest", "frames", "video",
-                                      "answer", "units", "budgets", "deadlines", "links", "memories", "logic", "images",
-                                      "modelled", "blame", "warnings", "host"}));
+            (std::vector<std::string>{
+                "schema", "platform", "config_digest", "scene_digest", "frames",   "video", "answer",
+                "units",  "budgets",  "deadlines",     "links",        "memories", "logic", "flip_pixels_per_degree",
+                "images", "errors",   "modelled",      "blame",        "warnings", "host"}));
   const auto has = [](const Json& object, const std::vector<std::string>& keys) {
     for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key;
   };
@@ -62,6 +63,9 @@ TEST(JsonReport, KeepsTheKeysOfSchema1InTheirOrder) {
   has(json["images"][0], {"frame", "file", "error", "errors"});
   has(json["images"][0]["error"], {"reference", "covered_missing", "covered_extra", "max_level", "rmse_level",
                                    "psnr_db", "over_one_level_percent"});
+  has(json["images"][0]["error"]["silhouettes"], {"compared", "rmse_level", "edge_jump_rms_level", "flip_mean"});
+  has(json["errors"][0], {"reference", "frames", "worst", "mean"});
+  has(json["errors"][0]["mean"]["highlights"], {"compared", "rmse_level", "flicker_rms_level", "ciede2000_p99"});
   has(json["modelled"]["object_processors"], {"available", "used", "instantiated"});
   has(json["modelled"]["lines"], {"total", "evaluated"});
   has(json["modelled"]["coefficients"], {"total", "sent"});
@@ -83,6 +87,42 @@ TEST(JsonReport, HoldsWhatTheResultSays) {
   EXPECT_EQ(json["images"][0]["error"], json["images"][0]["errors"][0]);
   EXPECT_EQ(json["images"][0]["error"]["rmse_level"], 0.123457) << "six significant digits";
   EXPECT_EQ(json["images"][0]["error"]["over_one_level_percent"], 0.0123457);
+}
+
+// The worst and the mean of both frames.
+TEST(JsonReport, HoldsTheErrorsOfAllFrames) {
+  run::Result result = example_result();
+  result.frames[1].errors[0].rmse_level = 0.223456789;
+  const Json json = Json::parse(json_text({result, false}));
+  ASSERT_EQ(json["errors"].size(), 3U);
+  EXPECT_EQ(json["errors"][0]["reference"], "ideal");
+  EXPECT_EQ(json["errors"][0]["frames"], 2);
+  EXPECT_EQ(json["errors"][0]["worst"]["rmse_level"], 0.223457);
+  EXPECT_EQ(json["errors"][0]["mean"]["rmse_level"], 0.173457);
+  EXPECT_EQ(json["errors"][0]["worst"]["wrong_object"], 4);
+  EXPECT_EQ(json["errors"][0]["worst"]["highlights"]["compared"], 120);
+}
+
+// Reports of earlier programs had neither parts nor later figures.
+TEST(JsonReport, ReadsReportsThatHadNotEveryKey) {
+  Json json = example_json();
+  json.erase("flip_pixels_per_degree");
+  json.erase("errors");
+  json["modelled"].erase("exact_pictures");
+  for (const char* key : {"exact_seconds", "figures_seconds"}) json["host"].erase(key);
+  for (Json& image : json["images"])
+    for (Json& errors : image["errors"])
+      for (const char* key :
+           {"over_two_levels_percent", "wrong_order", "edges_measured", "edge_jump_rms_level", "edge_jump_max_level",
+            "still_pixels", "flicker_rms_level", "flicker_max_level", "flip_mean", "flip_p95", "ciede2000_mean",
+            "ciede2000_p99", "inside", "silhouettes", "highlights"})
+        ASSERT_EQ(errors.erase(key), 1U) << key;
+  const run::Result result = read_json(json.dump(), "r").result;
+  EXPECT_EQ(result.frames[1].errors[2].max_level, 17);
+  EXPECT_EQ(result.frames[1].errors[2].silhouettes.compared, 0U);
+  EXPECT_FALSE(result.frames[1].errors[2].flicker_rms_level.has_value());
+  json["images"][0]["errors"][0].erase("rmse_level");
+  EXPECT_THROW(read_json(json.dump(), "r"), InputError) << "which they had";
 }
 
 TEST(JsonReport, NamesTheIdealReferenceWhereverItStands) {

@@ -131,6 +131,33 @@ TEST(TextReport, AnInfinitePsnrInOneFrameDoesNotHideAnother) {
   EXPECT_TRUE(holds(line_with(text_report({result, false}), "  ideal  "), "infinite"));
 }
 
+TEST(TextReport, SaysWhereThePicturesDiffer) {
+  run::Result result = example_result();
+  result.frames[1].errors[0].silhouettes.covered_missing = 4;
+  const std::string text = text_report({result, false});
+  const std::string worst = text.substr(text.find("Where they differ, the worst of the frames"));
+  const std::string mean = text.substr(text.find("Where they differ, the mean of the frames"));
+  const std::string line = line_with(worst, "silhouettes");
+  for (const char* part :
+       {" 881 ", " 4 ", " 0.25 ", " 60.5 ", " 0.75 ", " 0.8125 ", " - ", " 0.0123 ", " 0.0456 ", " 0.111 ", " 1.222"})
+    EXPECT_TRUE(holds(line, part)) << part << " in " << line;
+  EXPECT_TRUE(holds(line_with(mean, "silhouettes"), " 881.0 ")) << line_with(mean, "silhouettes");
+  EXPECT_TRUE(holds(line_with(mean, "silhouettes"), " 2.5 ")) << line_with(mean, "silhouettes");
+  EXPECT_TRUE(holds(text, "FLIP (0 .. 1, at 67 pixels a degree)"));
+  result.frames.pop_back();
+  EXPECT_FALSE(holds(text_report({result, false}), "the mean of the frames"));
+  result.flip_pixels_per_degree.reset();
+  EXPECT_FALSE(holds(text_report({result, false}), "FLIP"));
+}
+
+// Reports of earlier programs have no parts.
+TEST(TextReport, SaysNothingOfPartsThatItDoesNotKnow) {
+  run::Result result = example_result();
+  for (run::FrameFigures& frame : result.frames)
+    for (reference::ErrorFigures& e : frame.errors) e.inside = e.silhouettes = e.highlights = {};
+  EXPECT_FALSE(holds(text_report({result, false}), "Where they differ"));
+}
+
 TEST(TextReport, SaysThatNothingWasMeasured) {
   run::Result result = example_result();
   for (run::FrameFigures& frame : result.frames) frame.errors.clear();
@@ -142,6 +169,7 @@ TEST(TextReport, SaysWhatWasModelledAndWarns) {
   EXPECT_TRUE(holds(text, "Object processors: 1,024 in the machine, 896 hold an object, 431 simulated."));
   EXPECT_TRUE(holds(text, "896 made, 16 of them of zero area, 1 without a processor."));
   EXPECT_TRUE(holds(text, "Left out: second light: none in the scene"));
+  EXPECT_TRUE(holds(text, "Exact pictures: 6 compared with, 3 of them of a view that was not at hand."));
   EXPECT_TRUE(holds(text, "Nothing moves."));
   EXPECT_TRUE(holds(text, "The host needs 84 % of a frame."));
 }
@@ -150,6 +178,8 @@ TEST(TextReport, TellsOfTheHostOnlyWhenAsked) {
   EXPECT_FALSE(holds(text_report({example_result(), false}), "The simulation itself"));
   EXPECT_TRUE(holds(text_report({example_result(), true}),
                     "1.25 s, 266,666 simulated pixel clocks a second, 123.5 MB at most."));
+  EXPECT_TRUE(holds(text_report({example_result(), true}),
+                    "Apart from that: 0.75 s for exact pictures, 0.125 s for the figures of errors."));
 }
 
 TEST(TextReport, IsTheSameFromTheResultAsFromItsJson) {
