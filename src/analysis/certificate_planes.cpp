@@ -70,7 +70,9 @@ void certify_planes(const run::Inputs::Content& content, const CertifyOptions& o
   const char* const decides = "object_processor.word_bits";
   all.steps.push_back({"depth", decides, kTriangle, ProofKind::formula, kBounds, "units", worst(depths, 1.0),
                        seen.depth, seen.samples});
-  const double pixels = std::ldexp(large / 2, -2 * fitted.on_screen.fraction_bits);
+  // Of so many squares of either grid: the coarser one's are larger.
+  const int coarser = std::min(fitted.on_screen.fraction_bits, fitted.guarded.fraction_bits);
+  const double pixels = std::ldexp(large / 2, -2 * coarser);
   all.steps.push_back({fmt::format("depth, whose margin is {}", set_up::depth_margin(format)), decides,
                        fmt::format("triangle of {:.3g} px2, sample in it", pixels), ProofKind::formula, kBounds,
                        "units", worst(depths, large), seen.depth_of_large, seen.samples});

@@ -31,9 +31,10 @@ void add_normal_steps(const imogene::Machine& machine, const CosineBound& bound,
   const auto& p = machine.object_processor;
   const char* const decides = "object_processor.normal_bits";
   const Proof word = prove_normal_words(p);
+  const double word_seen = std::max(seen.normal_word, word.inputs > 0 && !word.holds() ? word.worst : 0.0);
   all.steps.push_back({"pre-normalisation, a component", decides,
                        fmt::format("word of {} bits, in each of its shifts", p.word_bits), kind_of(word), kProofs,
-                       "last place", word.worst, seen.normal_word, 3 * seen.normals});
+                       "last place", std::min(word.worst, word.closed_form), word_seen, 3 * seen.normals});
   const double sine = bound.largest_sine();
   all.steps.push_back({"pre-normalisation, the angle", decides, kNotShort, ProofKind::interval, kChain, "sine", sine,
                        seen.direction, seen.normals});
@@ -67,12 +68,16 @@ void add_table_steps(const imogene::Machine& machine, Numbers& numbers, report::
   const ShadingParameters& p = machine.shading;
   const auto add = [&](const std::string& step, const char* decides, const char* range, const char* unit,
                        const Proof& proof, const Proof& seen) {
-    all.steps.push_back({step, decides, range, kind_of(proof), kProofs, unit, proof.worst, seen.worst, seen.inputs});
+    // A table beyond the closed form is wrong, whatever else is like it: then it is what was seen.
+    const double worst_seen = std::max(seen.worst, proof.holds() ? 0.0 : proof.worst);
+    all.steps.push_back({step, decides, range, kind_of(proof), kProofs, unit,
+                         proof.holds() ? proof.worst : proof.closed_form, worst_seen, seen.inputs});
   };
   add("partial product", "shading.dot_table_output_bits", "entry of every light word", "last place",
       prove_product_tables(p), sample_product_tables(p, numbers, kTables));
-  add("terminate adder, wrong indices", "shading.index_bits", "sum of three products", "indices",
-      prove_terminate_adder(p), prove_terminate_adder(p));
+  const Proof adder = prove_terminate_adder(p);
+  add("terminate adder, wrong indices", "shading.index_bits", "sum of three products", "indices", adder,
+      {0.0, adder.inputs, 0.0});
   add("diffuse table", "shading.diffuse_fraction_bits", "entry of every I Kd colour", "levels", prove_diffuse_tables(p),
       sample_diffuse_tables(p, numbers, kTables));
   for (const std::int64_t exponent : p.exponents)

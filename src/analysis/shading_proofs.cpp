@@ -134,8 +134,8 @@ double specular_error(const ShadingParameters& p, std::uint32_t ks, const std::v
 // `error_of` on every constant of a table of `entries`, or the closed form where that is too much.
 template <class ErrorOf>
 Proof prove(std::uint64_t constants, std::uint64_t entries, double closed_form, const ErrorOf& error_of) {
-  if (constants * entries > kExhaustive) return {closed_form, 0};
-  Proof proof{0.0, constants * entries};
+  if (constants * entries > kExhaustive) return {closed_form, 0, closed_form};
+  Proof proof{0.0, constants * entries, closed_form};
   for (std::uint64_t constant = 0; constant < constants; ++constant)
     proof.worst = std::max(proof.worst, error_of(constant));
   return proof;
@@ -159,9 +159,9 @@ Proof sample(std::uint64_t constants, std::uint64_t entries, Numbers& numbers, s
 Proof prove_normal_words(const object_processor::ObjectProcessorParameters& parameters) {
   const auto word_bits = static_cast<unsigned>(parameters.word_bits);
   const auto normal_bits = static_cast<unsigned>(parameters.normal_bits);
-  if ((std::uint64_t{1} << word_bits) > kExhaustive) return {0.5, 0};
+  if ((std::uint64_t{1} << word_bits) > kExhaustive) return {0.5, 0, 0.5};
   const object_processor::Prenormaliser unit(parameters);
-  Proof proof;
+  Proof proof{0.0, 0, 0.5};
   for (unsigned shift = 0; shift <= unit.largest_shift(); ++shift) {
     const std::int64_t limit = std::int64_t{1} << (normal_bits - 1 + shift);
     // Another component with its top bit set makes this shift; without a shift none needs to.

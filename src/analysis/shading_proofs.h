@@ -12,16 +12,20 @@ namespace rastertlm::analysis {
 
 inline constexpr std::uint64_t kExhaustive = std::uint64_t{1} << 24;
 
+// The core's own tables are what is looked at: the closed form, which knows nothing of them, says whether they are
+// right.
 struct Proof {
   double worst = 0.0;
   std::uint64_t inputs = 0;  // that the core ran on; 0: too many, `worst` is the closed form of the same header
+  double closed_form = 0.0;
+  bool holds() const { return worst <= closed_form + 1e-9; }  // of doubles, each rounded
 };
 
 // A component of a normal's word against the centre of its link word's interval, in the link's last place: every shift,
 // and every word that may have it. Closed form: 1/2.
 Proof prove_normal_words(const object_processor::ObjectProcessorParameters& parameters);
 
-// Indices that are not the sum's, saturated at both ends: every sum of three partial products.
+// Indices that are not the sum's, saturated at both ends: every sum of three partial products. Closed form: 0.
 Proof prove_terminate_adder(const shading::ShadingParameters& parameters);
 
 // Tables: `prove` runs the fast form of the loaders on every constant that a table may be filled with, `sample` their

@@ -59,6 +59,15 @@ NormalWords words_of(const Direction& direction, const ShadingBench& bench, Numb
   return words;
 }
 
+std::uint64_t ones_complement(std::int64_t word) { return static_cast<std::uint64_t>(word < 0 ? ~word : word); }
+
+// By which pre-normalisation has to shift.
+unsigned right_shift(const NormalWords& normal, unsigned normal_bits) {
+  unsigned bits = 0;
+  for (const std::int64_t word : normal) bits = std::max(bits, bit_length(ones_complement(word)));
+  return bits < normal_bits ? 0 : bits - (normal_bits - 1);
+}
+
 struct Worst {
   double error = -1.0;
   Direction light{0, 0, 1};
@@ -222,16 +231,19 @@ ShadingBench::Pixel ShadingBench::pixel(const NormalWords& normal) const {
   std::array<std::uint32_t, 3> words{};
   for (std::size_t i = 0; i < 3; ++i) words[i] = static_cast<std::uint32_t>(wrap_unsigned(normal[i], word_bits_));
   pixel.link = prenormaliser_(words);
-  pixel.shift = prenormaliser_.shift_of(words);
+  pixel.shift = right_shift(normal, normal_bits_);
+  // Of the words as they should arrive, not as they do: what may be short, and how far it may then be off, is not for
+  // the unit to say whose work is looked at.
   const shading::Normaliser& normaliser = shader_.normaliser();
-  for (const std::uint16_t word : pixel.link) {
-    const shading::SignMagnitude component = normaliser.read(word);
-    pixel.squares += normaliser.square(component.magnitude, component.negative ? 1 : 0);
+  pixel.is_zero = true;
+  for (const std::int64_t word : normal) {
+    const std::uint64_t magnitude = ones_complement(word) >> pixel.shift;
+    pixel.squares += normaliser.square(static_cast<std::uint32_t>(magnitude), word < 0 ? 1 : 0);
+    pixel.is_zero = pixel.is_zero && magnitude == 0;
   }
   pixel.is_short = normaliser.is_short(pixel.squares);
   const Direction n{static_cast<double>(normal[0]), static_cast<double>(normal[1]), static_cast<double>(normal[2])};
   const double length = std::sqrt(dot(n, n));
-  pixel.is_zero = shader_.normaliser().normalise(pixel.link[0], pixel.link[1], pixel.link[2]).is_zero;
   if (length > 0.0) {
     pixel.towards = dot(n, light_.towards) / length;
     pixel.halfway = dot(n, light_.halfway) / length;

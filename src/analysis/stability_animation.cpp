@@ -42,6 +42,7 @@ class AnimationCase : public CaseKind {
   }
   std::string step(const run::Inputs::Content& /*machine*/) const override { return "animation.deg_per_frame"; }
 
+  double try_us(const run::Inputs::Content& /*machine*/) const override { return 7.0; }
   Measured measure(Trial& trial) const override {
     Measurement worst{"", "ulps of 1", 0.0, 0.0, BoundKind::required};
     const std::int64_t tries = trial.tries_or(tries_);

@@ -110,6 +110,7 @@ class DepthOrderCase : public CaseKind {
                                                                      : "frame_store.depth_test";
   }
 
+  double try_us(const run::Inputs::Content& /*machine*/) const override { return 2000.0; }
   Measured measure(Trial& trial) const override {
     const std::int64_t tries = trial.tries_or(tries_);
     Bench bench(trial);

@@ -65,6 +65,7 @@ class LightingCase : public CaseKind {
           {file, 0, "exponent_from", "is above exponent_to; a range from the lowest to the highest is expected"});
   }
   std::string step(const run::Inputs::Content& /*machine*/) const override { return "set_up.method"; }
+  double try_us(const run::Inputs::Content& /*machine*/) const override { return 30.0; }
   Measured measure(Trial& trial) const override {
     const quadratic::Machine* machine = trial.span_machine();
     if (machine == nullptr) return {};

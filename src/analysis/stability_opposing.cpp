@@ -205,6 +205,7 @@ class OpposingNormalsCase : public CaseKind {
     table.integer("tries", tries_, {1, 100'000'000}, {"", "Random triangles.", "the catalogue's figures"});
   }
   std::string step(const run::Inputs::Content& /*machine*/) const override { return "object_processor.word_bits"; }
+  double try_us(const run::Inputs::Content& /*machine*/) const override { return 15.0; }
   Measured measure(Trial& trial) const override {
     const imogene::Machine* machine = trial.object_machine();
     if (machine == nullptr) return {};

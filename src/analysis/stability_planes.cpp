@@ -115,6 +115,7 @@ class PlanesCase : public CaseKind {
                                                                        : "span_unit.depth_fraction_bits";
   }
 
+  double try_us(const run::Inputs::Content& /*machine*/) const override { return 2000.0; }
   Measured measure(Trial& trial) const override {
     const auto screen = TriangleScreen::of(trial);
     const std::int64_t tries = trial.tries_or(tries_);

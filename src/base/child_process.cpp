@@ -24,9 +24,10 @@ constexpr int kPauseMs = 20;  // from a look at what the child uses to the next
 
 // No handler of this process, no words of the library and no core file; it ends with who forked it.
 void live_alone(pid_t parent) {
-  for (const int signal :
-       {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGALRM, SIGXCPU})
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPIPE, SIGALRM, SIGXCPU})
     std::signal(signal, SIG_DFL);
+  // Interrupts, which a terminal sends to both, are for who forked it.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
   sigset_t unblocked;
   sigemptyset(&unblocked);
   ::sigprocmask(SIG_SETMASK, &unblocked, nullptr);
@@ -70,12 +71,15 @@ class Child {
   // Until it has said all, or went beyond a limit, which ends it.
   ChildOutcome wait() {
     ChildOutcome outcome;
-    const std::optional<ChildEnd> broken = read_all(outcome.bytes);
-    ::close(end_);
-    if (broken) ::kill(process_, SIGKILL);
-    int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    std::optional<ChildEnd> broken;
+    try {
+      broken = read_all(outcome.bytes);
+    } catch (...) {
+      end_it();
+      throw;
     }
+    if (broken) ::kill(process_, SIGKILL);
+    const int status = end_of_it();
     const bool whole = WIFEXITED(status) && WEXITSTATUS(status) == 0 && outcome.bytes.ends_with(kWhole);
     if (whole) outcome.bytes.pop_back();
     if (!whole) outcome.bytes.clear();
@@ -85,6 +89,19 @@ class Child {
   }
 
  private:
+  // Its status, once it is gone.
+  int end_of_it() const {
+    ::close(end_);
+    int status = 0;
+    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+  }
+  void end_it() const {
+    ::kill(process_, SIGKILL);
+    end_of_it();
+  }
+
   std::optional<ChildEnd> read_all(std::string& bytes) {
     std::string piece(kPiece, '\0');
     for (;;) {

@@ -28,7 +28,7 @@ struct PartFigures {
   Real over_one_level_percent{};  // compared pixels with a channel that differs by more than one level
   Real over_two_levels_percent{};
   // Of wrong_object, those that show what lies in front of, or behind, everything that the exact picture shows around
-  // them, by more than the bound of the depth words: no tie, and no edge that moved.
+  // them, by more than the margin of the depth words: no tie, and no edge that moved.
   Count wrong_order{};
   // Mach bands. At an edge between two triangles of a surface that goes on, the slope of the levels jumps: the
   // difference of the two pixels beyond the edge minus that of the two before it. The displayed jump minus the exact

@@ -26,6 +26,8 @@ namespace {
 
 constexpr std::size_t kMostVertices = std::size_t{1} << 24;  // some gigabytes, and more triangles than any machine has
 
+constexpr std::size_t kMostNamedCorners = std::size_t{1} << 23;  // of faces, each time that a node names them
+
 [[noreturn]] void refuse(const std::string& path, const std::string& message) {
   throw InputError({path, 0, "", message});
 }
@@ -53,6 +55,7 @@ class Reading {
       : path_(path), file_(file), facet_normals_(facet_normals) {}
 
   ImportedMesh run() {
+    check_size();
     std::vector<glm::dmat4> to_file;
     for (const MeshFile::Node& node : file_.nodes) {
       if (!to_file.empty() && node.parent >= to_file.size()) refuse(path_, "a node comes before the one it is part of");
@@ -71,6 +74,18 @@ class Reading {
   }
 
  private:
+  // Nodes may name a mesh again and again: a small file then holds more than any memory.
+  void check_size() const {
+    std::size_t own = 0, named = 0;
+    for (const MeshFile::Part& part : file_.parts) own += part.corners.size();
+    for (const MeshFile::Node& node : file_.nodes)
+      for (const std::uint32_t part : node.parts)
+        if (part < file_.parts.size()) named += file_.parts[part].corners.size();
+    if (named > std::max(own, kMostNamedCorners))
+      refuse(path_, fmt::format("its nodes have meshes of {} corners in {} places: at most {} are read", own, named,
+                                std::max(own, kMostNamedCorners)));
+  }
+
   void add_part(const MeshFile::Part& part, const glm::dmat4& to_file) {
     Mesh& out = result_.mesh;
     const std::size_t base = out.positions.size();

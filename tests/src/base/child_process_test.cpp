@@ -40,6 +40,16 @@ TEST(ChildProcess, SaysHowItWasStopped) {
   EXPECT_EQ(in_child({}, []() -> std::string { ::_exit(0); }).end, ChildEnd::stopped);
 }
 
+// A terminal sends them to both: who forked it decides.
+TEST(ChildProcess, LeavesInterruptsToItsParent) {
+  const ChildOutcome outcome = in_child({}, [] {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::raise(signal);
+    return std::string("whole");
+  });
+  EXPECT_EQ(outcome.end, ChildEnd::done);
+  EXPECT_EQ(outcome.bytes, "whole");
+}
+
 TEST(ChildProcess, IsEndedAtItsTime) {
   const ChildOutcome outcome = in_child({0.2, std::uint64_t{1} << 30}, []() -> std::string {
     volatile bool on = true;

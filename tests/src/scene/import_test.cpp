@@ -63,6 +63,20 @@ const std::string kPlyHeader =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n2 0 0\n2 2 0\n";
 
+// A small file of nodes that name one mesh again and again would fill any memory.
+TEST(Import, MeshesNamedTooOftenAreRefused) {
+  const Directory directory;
+  std::vector<std::uint16_t> indices;
+  for (int face = 0; face < 5000; ++face) indices.insert(indices.end(), {0, 1, 2});
+  std::string nodes = R"({"children":[1)", others;
+  for (int node = 1; node <= 700; ++node) {
+    if (node > 1) nodes.append(",").append(std::to_string(node));
+    others += R"(,{"mesh":0})";
+  }
+  write_gltf(directory, {0, 0, 0, 1, 0, 0, 0, 1, 0}, indices, nodes.append("]}").append(others));
+  EXPECT_THAT(refusal_of(directory.path() + "/mesh.gltf"), HasSubstr("in 10500000 places: at most 8388608 are read"));
+}
+
 TEST(Import, ObjWithoutNormalsIsSmoothAndClosed) {
   const Directory directory;
   const ImportedMesh imported = import_mesh(directory.write("t.obj", kTetrahedron));
