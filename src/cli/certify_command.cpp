@@ -33,13 +33,17 @@ void CertifyCommand::declare(CLI::App& app) {
                 ->capture_default_str()
                 ->type_name("N"),
             whole_from_one);
-  validated(app.add_option("--json", json_, "write the certificates for tools")->type_name("FILE"), not_empty);
+  validated(
+      app.add_option("--json", json_, "write the certificates for tools; - is standard output, in place of the tables")
+          ->type_name("FILE"),
+      not_empty);
 }
 
 ExitCode CertifyCommand::run() {
   Diagnostics diagnostics;
   const std::vector<config::Override> overrides = config::parse_overrides(overrides_, diagnostics);
   diagnostics.throw_if_any();
+  const bool tables = json_ != "-";
   run::InputFiles files;
   std::vector<report::Certificates> machines;
   std::string broken;
@@ -48,15 +52,17 @@ ExitCode CertifyCommand::run() {
     const run::Inputs machine = files.read_machine_alone(file, overrides);
     report::Certificates found = analysis::certify(*machine.content, options_);
     found.machine = file;
-    std::fputs(report::certificates_text(found).c_str(), stdout);
+    if (tables) std::fputs(report::certificates_text(found).c_str(), stdout);
     for (const report::Certificate& c : found.steps)
       if (!c.holds())
         broken += fmt::format("\n{}: {}: {:.9g} {} proved, {:.9g} seen", file, c.step, c.proved, c.unit, c.seen);
     steps += found.steps.size();
     machines.push_back(std::move(found));
   }
-  std::fputs(fmt::format("{}\n", report::counted(steps, "certificate", "certificates")).c_str(), stdout);
-  if (!json_.empty()) report::write_text_file(json_, report::certificates_json(machines));
+  std::fputs(tables ? fmt::format("{}\n", report::counted(steps, "certificate", "certificates")).c_str()
+                    : report::certificates_json(machines).c_str(),
+             stdout);
+  if (tables && !json_.empty()) report::write_text_file(json_, report::certificates_json(machines));
   if (broken.empty()) return ExitCode::kDone;
   std::fputs(("rastertlm: broken certificates:" + broken + '\n').c_str(), stderr);
   return ExitCode::kModelBroken;

@@ -62,6 +62,18 @@ std::vector<std::int64_t> StabilityCommand::tries_of(const std::vector<run::Inpu
   return analysis::spread_inputs(costs, inputs_);
 }
 
+// A case that was asked for and that no machine has the step of would hold by silence.
+void StabilityCommand::refuse_unused(const report::StabilityReport& found) const {
+  Diagnostics diagnostics;
+  for (const std::string& name : chosen_) {
+    bool used = false;
+    for (const report::MachineFindings& machine : found.machines)
+      for (const auto& finding : machine.findings) used = used || finding.name == name;
+    if (!used) diagnostics.add({"--case", 0, name, "none of these machines has what it stresses"});
+  }
+  diagnostics.throw_if_any();
+}
+
 ExitCode StabilityCommand::run() {
   Diagnostics diagnostics;
   const std::vector<config::Override> overrides = config::parse_overrides(overrides_, diagnostics);
@@ -85,6 +97,7 @@ ExitCode StabilityCommand::run() {
     }
     if (tables) std::fputs(report::findings_text(of_machine, seed_).c_str(), stdout);
   }
+  refuse_unused(found);
   std::fputs(tables ? report::verdict_text(found).c_str() : report::stability_json(found).c_str(), stdout);
   if (tables && !json_.empty()) report::write_text_file(json_, report::stability_json(found));
   return found.broken().empty() ? ExitCode::kDone : ExitCode::kRequirementMissed;

@@ -7,6 +7,7 @@
 
 #include "src/analysis/hard_case.h"
 #include "src/cli/command.h"
+#include "src/report/stability_report.h"
 #include "src/run/inputs.h"
 
 namespace rastertlm::cli {
@@ -19,6 +20,7 @@ class StabilityCommand : public Command {
   ExitCode run() override;
 
  private:
+  void refuse_unused(const report::StabilityReport& found) const;
   std::vector<std::int64_t> tries_of(const std::vector<run::Inputs>& machines,
                                      const std::vector<analysis::HardCase>& cases) const;
 

@@ -53,9 +53,15 @@ std::string blame_section(const BlameContents& blame) {
   if (blame.frames.size() > 1)
     title += fmt::format(" (frame {}, the farthest from the ideal picture of {})", frame.frame, blame.frames.size());
   std::string text = '\n' + title + '\n' + std::string(title.size(), '=') + '\n';
-  text += fmt::format(
-      "  {} of {} pixels have a level that is not the ideal one; RMSE {} levels, not rounded; largest {}.\n",
-      grouped(frame.wrong), grouped(frame.pixels), levels(frame.rmse_level), frame.max_level);
+  text += fmt::format("  {} of {} pixels have a level that is not the ideal one", grouped(frame.wrong),
+                      grouped(frame.pixels));
+  if (frame.other_words > 0)
+    text += fmt::format(
+        ".\n  {} of them show words or tables that are not this pose's: late, torn, half-written, or of objects "
+        "without "
+        "a processor.\n  No step is to blame for these; all that follows is of the other pixels",
+        grouped(frame.other_words));
+  text += fmt::format("; RMSE {} levels, not rounded; largest {}.\n", levels(frame.rmse_level), frame.max_level);
   text += table_of(frame);
   text += fmt::format(
       "  Shares are of the squares of the differences. Removes: what goes where the step alone is made exact. Alone: "
@@ -67,11 +73,6 @@ std::string blame_section(const BlameContents& blame) {
       "{}, "
       "line {}.\n",
       frame.largest_level, frame.largest_column, frame.largest_line);
-  if (frame.other_words > 0)
-    text += fmt::format(
-        "  {} pixels show words that are not this pose's: late, torn, or of objects without a processor; they count in "
-        "no share.\n",
-        grouped(frame.other_words));
   return text + fmt::format("  {} and the channel blame.step of {} have the step of every pixel.\n",
                             blame_name(frame.frame), channels_name(frame.frame));
 }

@@ -46,7 +46,7 @@ TEST_F(StabilityCommandTest, EveryBoundHoldsOnTheDefaultMachines) {
   for (const auto& entry : std::filesystem::directory_iterator(kConfigs + "/hard_cases"))
     EXPECT_THAT(outcome.out, HasSubstr(entry.path().stem().string().append(" ("))) << "no machine has such a step";
   EXPECT_THAT(outcome.out, EndsWith("cases with a broken one: 0\n"));
-  // "218 bounds, 100,098 inputs; ..."
+  // "321 bounds, 100,098 inputs; ..."
   std::string count = outcome.out.substr(outcome.out.rfind(" bounds, ") + 9);
   std::erase(count, ',');
   EXPECT_GE(std::stoll(count), 100'000);
@@ -88,6 +88,13 @@ TEST_F(StabilityCommandTest, APrestepHoldsButForDepthsOfSlivers) {
   const Outcome outcome = stability({kQuadratic, "--set", prestep, "--case", "planes_sliver"});
   EXPECT_EQ(broken_steps(outcome), std::set<std::string>{"span_unit.start_edge"});
   EXPECT_THAT(outcome.out, HasSubstr("required, BROKEN"));
+}
+
+TEST_F(StabilityCommandTest, ACaseThatNoMachineHasIsRefused) {
+  const Outcome outcome = stability({kImogene, "--case", "solver_sliver_1e6"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--case: solver_sliver_1e6: none of these machines has what it stresses"));
+  EXPECT_EQ(stability({kImogene, kQuadratic, "--case", "solver_sliver_1e6", "--tries", "4"}).exit_code, 0);
 }
 
 TEST_F(StabilityCommandTest, SameSeedSameText) {

@@ -277,7 +277,7 @@ function blameSection() {
           ])), {tall: true}),
       element('ul', {}, report.blame.frames.map((frame) => element('li', {},
           `Frame ${frame.frame}: ${grouped(frame.wrong)} of ${grouped(frame.pixels)} pixels are wrong; ${share(frame.interaction_share)} of the squares are no ` +
-          `step's alone; ${grouped(frame.other_words)} pixels show words of another pose. Worst, where the right triangle is seen: ` +
+          `step's alone; ${grouped(frame.other_words)} pixels show words or tables of another pose, which no step is to blame for. Worst, where the right triangle is seen: ` +
           `${quantity(frame.largest_level)} levels at column ${frame.largest_column}, line ${frame.largest_line}.`))),
       note('Shares are of the squares of the differences from the ideal picture, levels not rounded. Removes: what goes where the step alone is made ' +
           'exact. Alone: what it makes where all others are. Interaction: the difference of both.'),

@@ -202,7 +202,7 @@ TEST(TextReport, TellsWhatMadePixelsWrong) {
   const std::string row = line_with(text, "  dot product  ");
   for (const char* cell : {"5,185", "25.0 %", "72.5 %", "-47.5 %", "8.75"}) EXPECT_TRUE(holds(row, cell)) << cell;
   EXPECT_TRUE(holds(text, "8.75 levels at column 17, line 18"));
-  EXPECT_TRUE(holds(text, "3 pixels show words that are not this pose's"));
+  EXPECT_TRUE(holds(text, "3 of them show words or tables that are not this pose's"));
 }
 
 }  // namespace
