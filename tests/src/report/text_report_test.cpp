@@ -198,7 +198,8 @@ TEST(TextReport, HasNoBlanksAtTheEndsOfItsLines) {
 TEST(TextReport, TellsWhatMadePixelsWrong) {
   EXPECT_FALSE(holds(text_report({example_result(), false}), "What made pixels wrong"));
   const std::string text = text_report({example_result(), false, example_blame()});
-  EXPECT_TRUE(holds(text, "5,200 of 52,000 pixels have a level that is not the ideal one; RMSE 0.412 levels"));
+  EXPECT_TRUE(holds(text, "5,200 of 52,000 pixels have a level that is not the ideal one.\n"));
+  EXPECT_TRUE(holds(text, "all that follows is of the other pixels; RMSE 0.412 levels"));
   const std::string row = line_with(text, "  dot product  ");
   for (const char* cell : {"5,185", "25.0 %", "72.5 %", "-47.5 %", "8.75"}) EXPECT_TRUE(holds(row, cell)) << cell;
   EXPECT_TRUE(holds(text, "8.75 levels at column 17, line 18"));
