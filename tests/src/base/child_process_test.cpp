@@ -14,7 +14,8 @@ namespace {
 
 TEST(ChildProcess, ReturnsItsBytes) {
   // More than a pipe holds.
-  std::string bytes = std::string(3'000'000, '\0') + "end";
+  std::string bytes(3'000'000, '\0');
+  bytes.append("end");
   const ChildOutcome outcome = in_child({}, [&] { return bytes; });
   EXPECT_EQ(outcome.end, ChildEnd::done);
   EXPECT_TRUE(outcome.bytes == bytes);
