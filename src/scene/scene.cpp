@@ -159,6 +159,13 @@ std::size_t Scene::triangle_count() const {
   return count;
 }
 
+std::size_t Scene::solid_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(objects.begin(), objects.end(), [](const Object& object) { return object.solid.has_value(); }));
+}
+
+std::size_t Scene::object_count() const { return triangle_count() + solid_count(); }
+
 Scene build_scene(const SceneDescription& description, const std::string& file, const std::string& directory) {
   return Builder(description, file, directory).run();
 }

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "src/geometry/mesh.h"
 #include "src/geometry/pose.h"
+#include "src/geometry/solid.h"
 #include "src/scene/description.h"
 
 namespace rastertlm::scene {
@@ -26,13 +28,15 @@ struct Material {
 using geometry::Light;  // of a scene: in world space
 using geometry::Mesh;
 using geometry::Pose;
+using geometry::Solid;
 
 struct Object {
-  Mesh mesh;                  // its own space
-  glm::dmat4 placement{1.0};  // to world space, before animation
+  Mesh mesh;                   // its own space; empty where it is a solid
+  std::optional<Solid> solid;  // likewise its own space
+  glm::dmat4 placement{1.0};   // to world space, before animation
   bool two_sided = false;
   std::vector<AnimationDescription> animation;
-  double sphere_radius = 0.0;  // placed: the mesh stands for a sphere about its origin; 0: it does not
+  double sphere_radius = 0.0;  // placed: it is, or its mesh stands for, a sphere about its origin; 0: it is none
 };
 
 struct Scene {
@@ -47,6 +51,9 @@ struct Scene {
   std::string digest;  // SHA-256 of the description and of every mesh file's bytes
 
   std::size_t triangle_count() const;
+  std::size_t solid_count() const;
+  // Of what is drawn: every triangle and every solid. They are numbered in this order of the objects, from 1 in frames.
+  std::size_t object_count() const;
 };
 
 // Angles are computed from the frame number, never summed. `columns` / `lines` is the aspect ratio of the view volume.
