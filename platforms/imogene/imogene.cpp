@@ -10,6 +10,7 @@
 
 #include "modules/shading/loader_budget.h"
 #include "modules/stream/simulated_time.h"
+#include "src/scene/solids.h"
 
 namespace rastertlm::imogene {
 namespace {
@@ -99,6 +100,8 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
 
 void Imogene::load_materials() {
   Diagnostics diagnostics;
+  for (const Diagnostic& solid : scene::refuse_solids(scene_, "this machine has no quadric processors"))
+    diagnostics.add(solid);
   if (scene_.materials.size() > static_cast<std::size_t>(machine_.shading.materials))
     diagnostics.add({"", 0, "shading.materials",
                      fmt::format("the scene has {} materials and the shading tables hold {}", scene_.materials.size(),

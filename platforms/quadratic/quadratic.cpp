@@ -10,6 +10,7 @@
 #include "modules/stream/failure.h"
 #include "modules/stream/simulated_time.h"
 #include "src/base/fixed_point.h"
+#include "src/scene/solids.h"
 
 namespace rastertlm::quadratic {
 namespace {
@@ -126,6 +127,7 @@ host::Rendering Quadratic::rendering() const {
 
 void Quadratic::check_scene() const {
   Diagnostics diagnostics;
+  for (const Diagnostic& solid : scene::refuse_solids(scene_, scene::kTrianglesAlone)) diagnostics.add(solid);
   for (std::size_t i = 0; i < scene_.materials.size(); ++i)
     for (int c = 0; c < 3; ++c)
       if (!std::isfinite(scene_.materials[i].colour[c]))

@@ -9,6 +9,7 @@
 #include <map>
 #include <type_traits>
 
+#include "src/scene/solids.h"
 #include "src/scene/view_check.h"
 
 namespace rastertlm::scene {
@@ -119,6 +120,7 @@ void check_object(const ObjectDescription& object, const std::string& path, cons
     problems.add(path + ".patches", fmt::format("{} is not accepted; accepted values: 28, 32", object.patches));
   if (object.kind == ObjectKind::mesh && object.file.empty()) problems.add(path + ".file", "a mesh needs a file");
   check_animation(object.animation, path, problems);
+  check_solid(object, path, problems);
   if (object.material.empty()) {
     if (materials.empty() && object.kind != ObjectKind::mesh)
       problems.add(path + ".material", "the scene has no material");

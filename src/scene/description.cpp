@@ -10,6 +10,10 @@ using parameter::Range;
 constexpr Range<double> kCoordinate{-kFarthest, kFarthest};
 constexpr Range<double> kAngle{-1e9, 1e9};
 constexpr Range<double> kFraction{0.0, 1.0};
+constexpr Range<double> kLength{0.0, kFarthest, true};
+constexpr Range<double> kCoefficient{-1e100, 1e100};
+
+const std::vector<std::string> kUpright{"cylinder", "cone", "paraboloid", "hyperboloid"};
 
 Condition type_is(std::vector<std::string> values) { return {"type", std::move(values)}; }
 
@@ -87,9 +91,49 @@ void MaterialDescription::declare(parameter::Table& table) {
                 {"", "Exponent of the highlight; larger is smaller and sharper.", "picture"});
 }
 
+void PlaneDescription::declare(parameter::Table& table) {
+  table.triple("normal", normal, kCoordinate,
+               {"", "Outwards, in the object's own space, any length but 0; the cut shows it.", "picture"});
+  table.real(
+      "distance", distance, kCoefficient,
+      {"", "What remains is where normal . x <= distance; world units where the normal has length 1.", "picture"});
+}
+
+void ObjectDescription::declare_solid(parameter::Table& table) {
+  table.triple("radii", radii, kLength,
+               {"world units", "Half axes along x, y and z.", "picture", type_is({"ellipsoid"})});
+  table.real("height", height, kLength,
+             {"world units",
+              "From z = 0 up; the apex of a cone and a paraboloid is there. A hyperboloid goes from -height/2 to "
+              "height/2.",
+              "picture", type_is(kUpright)});
+  table.integer(
+      "sheets", sheets, {1, 2},
+      {"", "1: a waist about z = 0; 2: apart, one above and one below.", "picture", type_is({"hyperboloid"})});
+  table.real("waist", waist, kLength,
+             {"world units",
+              "One sheet: the radius at z = 0, less than `radius`. Two: the apexes are at z = -waist and waist, within "
+              "the height.",
+              "picture", type_is({"hyperboloid"})});
+  table.boolean(
+      "capped", capped,
+      {"", "It ends at its height; else it goes on without end, a cone as two.", "picture", type_is(kUpright)});
+  const auto general = type_is({"quadric"});
+  table.triple("squares", squares, kCoefficient,
+               {"", "Of x^2, y^2 and z^2; the solid is where the polynomial is 0 and less.", "picture", general});
+  table.triple("products", products, kCoefficient, {"", "Of xy, yz and zx.", "picture", general});
+  table.triple("linear", linear, kCoefficient, {"", "Of x, y and z.", "picture", general});
+  table.real("constant", constant, kCoefficient, {"", "What is added to them.", "picture", general});
+}
+
 void ObjectDescription::declare(parameter::Table& table) {
-  table.choice("type", kind, {"teapot", "uv_sphere", "mesh", "triangles"},
-               {"", "Where its triangles come from.", "picture"});
+  table.choice("type", kind,
+               {"teapot", "uv_sphere", "mesh", "triangles", "sphere", "ellipsoid", "cylinder", "cone", "paraboloid",
+                "hyperboloid", "quadric"},
+               {"",
+                "Where its triangles come from; from sphere on it is a solid, its surface exact. The axis of "
+                "solids is z.",
+                "picture"});
   table.text("material", material,
              {"", "Name of its material; without one, those of the mesh file, or else the scene's first.", "picture"});
   table.triple("translate", translate, kCoordinate, {"world units", "Moved, after all else.", "picture"});
@@ -98,14 +142,17 @@ void ObjectDescription::declare(parameter::Table& table) {
   table.triple("scale", scale, kCoordinate,
                {"", "Factors along its own axes; negative mirrors, 0 is refused.", "picture"});
   table.boolean("two_sided", two_sided,
-                {"", "Back faces are kept and their normals turned, instead of culled.", "picture"});
+                {"", "Back faces are kept and their normals turned, instead of culled. A solid has an outside.",
+                 "picture", type_is({"teapot", "uv_sphere", "mesh", "triangles"})});
   table.integer(
       "segments", segments, {1, 128},
       {"", "Quads a patch and direction, of two triangles each.", "picture; number of triangles", type_is({"teapot"})});
   table.integer("patches", patches, {28, 32},
                 {"", "28, or 32 with the bottom.", "number of triangles", type_is({"teapot"})});
-  table.real("radius", radius, {0.0, kFarthest, true},
-             {"world units", "Radius of the sphere.", "picture", type_is({"uv_sphere"})});
+  table.real("radius", radius, kLength,
+             {"world units",
+              "Of a sphere or a cylinder; of a cone and a paraboloid at z = 0, of a hyperboloid at z = height/2.",
+              "picture", type_is({"uv_sphere", "sphere", "cylinder", "cone", "paraboloid", "hyperboloid"})});
   table.integer("slices", slices, {3, 4096},
                 {"", "Sectors of longitude.", "picture; number of triangles", type_is({"uv_sphere"})});
   table.integer("stacks", stacks, {2, 4096},
@@ -120,7 +167,9 @@ void ObjectDescription::declare(parameter::Table& table) {
   table.index_triples(
       "indices", indices,
       {"", "Three positions a triangle, counted from 0.", "picture; number of triangles", type_is({"triangles"})});
+  declare_solid(table);
   table.list("animation", animation, "What moves the object, in this order.");
+  table.list("plane", planes, "Planes that cut a solid.");
 }
 
 void SceneDescription::declare(parameter::Table& table) {

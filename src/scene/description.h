@@ -15,7 +15,20 @@ using parameter::Triple;
 
 enum class ProjectionKind { perspective, orthographic };
 using geometry::LightKind;
-enum class ObjectKind { teapot, uv_sphere, mesh, triangles };
+enum class ObjectKind {
+  teapot,
+  uv_sphere,
+  mesh,
+  triangles,
+  // Solids from here on.
+  sphere,
+  ellipsoid,
+  cylinder,
+  cone,
+  paraboloid,
+  hyperboloid,
+  quadric
+};
 enum class AnimationKind { spin, orbit, keys };
 enum class LightingModel { blinn, phong };
 
@@ -70,6 +83,13 @@ struct MaterialDescription {
   void declare(parameter::Table& table);
 };
 
+// Cuts a solid: what remains is where normal . x <= distance.
+struct PlaneDescription {
+  Triple normal{0, 0, 1};  // the object's own space, any length
+  double distance = 0.0;   // in lengths of the normal
+  void declare(parameter::Table& table);
+};
+
 struct ObjectDescription {
   ObjectKind kind = ObjectKind::teapot;
   std::string material;
@@ -79,15 +99,28 @@ struct ObjectDescription {
   bool two_sided = false;
   std::int64_t segments = 4;  // teapot: quads a patch and direction
   std::int64_t patches = 28;  // teapot: 28 or 32
-  double radius = 1.0;        // uv_sphere
+  double radius = 1.0;        // uv_sphere, and round solids
   std::int64_t slices = 12;
   std::int64_t stacks = 8;
+  Triple radii{1, 1, 1};     // ellipsoid
+  double height = 2.0;       // cylinder, cone, paraboloid, hyperboloid
+  std::int64_t sheets = 1;   // hyperboloid: 1 or 2
+  double waist = 0.5;        // hyperboloid
+  bool capped = true;        // cylinder, cone, paraboloid, hyperboloid
+  Triple squares{1, 1, 1};   // quadric: of x^2, y^2, z^2
+  Triple products{0, 0, 0};  // of xy, yz, zx
+  Triple linear{0, 0, 0};    // of x, y, z
+  double constant = -1.0;
   std::string file;               // mesh
   std::vector<Triple> positions;  // triangles: three a triangle, or indexed by `indices`
   std::vector<Triple> normals;    // one a position, or none
   std::vector<IndexTriple> indices;
   std::vector<AnimationDescription> animation;
+  std::vector<PlaneDescription> planes;  // solids
   void declare(parameter::Table& table);
+
+ private:
+  void declare_solid(parameter::Table& table);
 };
 
 struct SceneDescription {

@@ -13,6 +13,7 @@
 #include "src/scene/import.h"
 #include "src/scene/inline_triangles.h"
 #include "src/scene/primitives.h"
+#include "src/scene/solids.h"
 #include "src/scene/transform.h"
 
 namespace rastertlm::scene {
@@ -65,8 +66,15 @@ class Builder {
     object.placement =
         translation(vector(description.translate)) * rotation_xyz_deg(vector(description.rotate_deg)) * scaling(scale);
     const bool round = std::fabs(scale.x) == std::fabs(scale.y) && std::fabs(scale.y) == std::fabs(scale.z);
-    if (description.kind == ObjectKind::uv_sphere && round)
+    const bool whole_sphere = description.kind == ObjectKind::sphere && description.planes.empty();
+    if ((description.kind == ObjectKind::uv_sphere || whole_sphere) && round)
       object.sphere_radius = description.radius * std::fabs(scale.x);
+    if (is_solid(description.kind)) {
+      object.solid = make_solid(description);
+      object.solid->material = named_material(description.material);
+      scene_.objects.push_back(std::move(object));
+      return;
+    }
     object.mesh = make_mesh(description, path);
     Mesh& mesh = object.mesh;
     if (mesh.triangles.empty()) return;
@@ -92,6 +100,8 @@ class Builder {
         break;
       case ObjectKind::mesh:
         return import(description, path);
+      default:
+        return {};  // a solid
     }
     mesh.material.assign(mesh.triangles.size(), named_material(description.material));
     return mesh;

@@ -70,6 +70,17 @@ TEST(SceneDescription, HasEveryKeyOfTheFile) {
                                        "object.positions",
                                        "object.normals",
                                        "object.indices",
+                                       "object.radii",
+                                       "object.height",
+                                       "object.sheets",
+                                       "object.waist",
+                                       "object.capped",
+                                       "object.squares",
+                                       "object.products",
+                                       "object.linear",
+                                       "object.constant",
+                                       "object.plane.normal",
+                                       "object.plane.distance",
                                        "object.animation.type",
                                        "object.animation.axis",
                                        "object.animation.centre",
@@ -104,7 +115,7 @@ TEST(SceneDescription, ConditionsNameAChoiceAndItsValues) {
     for (const List& list : table.lists()) visit(list.example());
   };
   visit(parameter::view(d));
-  EXPECT_EQ(conditions, 2U + 2U + 9U + 3U + 3U);  // camera, light, object, and both lists of animations
+  EXPECT_EQ(conditions, 2U + 2U + 10U + 9U + 3U + 3U);  // camera, light, object, solids, both lists of animations
 }
 
 TEST(SceneDescription, WritesThroughToItsMembers) {
