@@ -59,7 +59,7 @@ ExactSide::ExactSide(const scene::Scene& scene, const scene::Pose& pose, const r
     : options_(options), light_(scene, pose, options) {
   const reference::CutPieces cut = reference::cut_pieces(scene, pose, options);
   grid_ = cut.grid;
-  first_of_object_.assign(scene.triangle_count() + 2, 0);
+  first_of_object_.assign(scene.object_count() + 2, 0);
   for (const reference::CutPiece& one : cut.list) {
     const std::optional<reference::Piece> ideal = reference::as_seen(one, false);
     const std::optional<reference::Piece> snapped = reference::as_seen(one, true);

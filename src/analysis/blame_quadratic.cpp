@@ -44,7 +44,7 @@ class QuadraticFrame : public ExplainedFrame {
         background_(scene.background),
         exact_(scene, pose, run::exact_options(machine).front()),
         pixels_(shown.pixels()) {
-    first_of_object_.assign(scene.triangle_count() + 2, 0);
+    first_of_object_.assign(scene.object_count() + 2, 0);
     draw(scene, pose);
     for (std::size_t object = 1; object < first_of_object_.size(); ++object)
       first_of_object_[object] += first_of_object_[object - 1];

@@ -174,6 +174,7 @@ report::VectorsManifest write_frame(imogene::Imogene& platform, const run::Input
 report::VectorsManifest write_vectors(const run::Inputs& inputs, const VectorsOptions& options,
                                       const report::OutputDirectory& directory) {
   const imogene::Machine& machine = inputs.content->object_machine("vectors");
+  inputs.content->refuse_solids("vectors");
   const ProcessorRange range = range_of(options.processors, machine.processors());
   check_field(options.field, machine.video.interlaced);
   FrameRecorder recorder(options.frame, {options.field, machine.video.interlaced ? 2U : 1U},

@@ -136,6 +136,7 @@ ExitCode RenderCommand::run() {
     throw InputError(Diagnostic{"--perceptual", 0, "", "nothing is measured with --no-reference"});
   report::OutputDirectory::remove_on_signals();
   const run::Inputs inputs = run::read_inputs(machine_, scene_, overrides_);
+  if (blame_) inputs.content->refuse_solids("--blame");
   report::OutputDirectory directory(output_directory());
   report::ResultWriter writer(directory);
   report::BlameContents blame;

@@ -14,6 +14,7 @@
 #include "src/parameter/table.h"
 #include "src/run/input_files.h"
 #include "src/run/locate.h"
+#include "src/scene/solids.h"
 
 namespace rastertlm::run {
 namespace {
@@ -174,6 +175,11 @@ InputError Inputs::Content::located(const InputError& error) const {
 const imogene::Machine& Inputs::Content::object_machine(const std::string& command) const {
   if (const auto* known = std::get_if<imogene::Machine>(&machine)) return *known;
   throw InputError({machine_file, 0, "platform", command + " knows the object machine alone: \"imogene\""});
+}
+
+void Inputs::Content::refuse_solids(const std::string& command) const {
+  const std::vector<Diagnostic> refused = scene::refuse_solids(*scene, command + " knows triangles alone");
+  if (!refused.empty()) throw located(InputError(refused));
 }
 
 std::string config_digest(const Inputs& inputs) {

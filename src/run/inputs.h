@@ -30,6 +30,9 @@ struct Inputs::Content {
   // Throws InputError where the machine file names another platform; `command` is what the program was asked for.
   const imogene::Machine& object_machine(const std::string& command) const;
 
+  // Throws InputError where the scene has solids and `command` knows triangles alone.
+  void refuse_solids(const std::string& command) const;
+
   // What a machine finds wrong with its own file or with the scene, with file and line.
   InputError located(const InputError& error) const;
 };

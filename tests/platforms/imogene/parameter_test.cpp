@@ -86,6 +86,7 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
     add("plain sphere", scene_of("[[object]]\ntype = \"uv_sphere\"\nmaterial = \"glaze\"\n"));
     add("teapot", scene_of("[[object]]\ntype = \"teapot\"\nscale = [0.5, 0.5, 0.5]\n"));
     add("triangles", scene_of(still));
+    add("cut sphere", scene_of("[[object]]\ntype = \"sphere\"\n[[object.plane]]\ndistance = 0.5\n"));
     add("mesh", scene_of("[[object]]\ntype = \"mesh\"\nfile = \"one.obj\"\n"));
     add("object by keys", scene_of(sphere + "[[object.animation]]\n" + keys + key("object.animation")));
     add("camera turning",
@@ -194,6 +195,26 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
     };
   }
 
+  // A change of type alone has an object without keys of its own.
+  static std::map<std::string, Change> solid_changes() {
+    std::map<std::string, Change> changes;
+    const auto add = [&](const std::string& type, const std::string& key, const std::string& value) {
+      const std::string path = "object[0]." + key;
+      changes[path] = {
+          .scene = "teapot", .change = {"object[0].type=" + type, path + '=' + value}, .effect = Effect::refused};
+    };
+    add("ellipsoid", "radii", "[1.0, 2.0, 1.0]");
+    add("cone", "height", "1.5");
+    add("cone", "capped", "false");
+    add("hyperboloid", "sheets", "2");
+    add("hyperboloid", "waist", "0.6");
+    add("quadric", "squares", "[1.0, 2.0, 1.0]");
+    add("quadric", "products", "[0.5, 0.0, 0.0]");
+    add("quadric", "linear", "[0.5, 0.0, 0.0]");
+    add("quadric", "constant", "-2.0");
+    return changes;
+  }
+
   static std::map<std::string, Change> animation_changes() {
     std::map<std::string, Change> changes;
     for (const std::string owner : {"object", "camera"}) {
@@ -235,9 +256,9 @@ positions = [[-2.0, 1.0, -1.5], [2.0, 1.3, -1.0], [0.2, 0.8, 2.2]]
     EXPECT_EQ(is_refusal(after), change.effect == Effect::refused) << (is_refusal(after) ? after : "not refused");
   }
 
- private:
   static bool is_refusal(const std::string& text) { return text.starts_with("refused: "); }
 
+ private:
   void add(const std::string& name, const std::string& text) {
     scenes_[name] = written("scene" + std::to_string(scenes_.size()) + ".toml", text);
   }
@@ -333,14 +354,16 @@ TEST_F(ParameterTest, PresetMovesSomethingIfItIsAnother) {
 TEST_F(ParameterTest, OfTheSceneMovesSomething) {
   std::map<std::string, Change> changes = world_changes();
   changes.merge(object_changes());
+  changes.merge(solid_changes());
   changes.merge(animation_changes());
   const std::map<std::string, Parameter> paths = paths_of("scene");
   for (const auto& [path, change] : changes) {
     EXPECT_TRUE(paths.contains(path)) << path << " is no parameter";
     expect_effect(path, change);
   }
+  EXPECT_TRUE(is_refusal(observed("cut sphere", {})));  // whatever its plane is
   for (const auto& [path, p] : paths)
-    if (!changes.contains(path)) {
+    if (!changes.contains(path) && !path.starts_with("object[0].plane[0].")) {
       EXPECT_TRUE(p.about.exempt) << path << " is not shown to move anything";
     }
 }
