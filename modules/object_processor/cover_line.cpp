@@ -9,7 +9,7 @@ namespace rastertlm::object_processor {
 
 // Finds the spans of the line's band.
 void ObjectBoard::make_ready(std::uint32_t line) {
-  const std::span<const std::uint32_t> slots = active(line);
+  const std::span<const std::uint32_t> slots = bands_.active(line);
   ready_first_ = line / kBandLines * kBandLines;
   const std::size_t room = slots.size() + 1;
   if (spans_.size() < kBandLines * room) spans_.resize(kBandLines * room);
@@ -23,7 +23,7 @@ void ObjectBoard::make_ready(std::uint32_t line) {
                   found);
   for (std::uint32_t k = 0; k < kBandLines; ++k) {
     const BandLine& band_line = found.line[k];
-    const std::uint32_t touched = ready_first_ + k < lines_ ? touched_by_[ready_first_ + k] : 0;
+    const std::uint32_t touched = ready_first_ + k < lines_ ? bands_.touched_by(ready_first_ + k) : 0;
     ready_[k] = {{band_line.spans, band_line.count, band_line.seen_pixels},
                  band_line.fragments,
                  touched,
@@ -58,7 +58,7 @@ void ObjectBoard::cover_carefully(std::uint32_t line, Ready& ready) {
   std::vector<frame::CoveredSpan>& spans = careful_spans_[line - ready_first_];
   spans.clear();
   ready.fragments = 0;
-  for (const std::uint32_t slot : active(line)) {
+  for (const std::uint32_t slot : bands_.active(line)) {
     if (!intervals_[slot].holds(static_cast<std::int32_t>(line))) continue;
     const LineEdges at = line_edges(slot, line);
     visit_spans(at, {0, static_cast<std::int32_t>(columns_)}, [&](const Interval& span) {

@@ -26,11 +26,11 @@ void compare_depth(std::uint32_t depth, std::uint32_t step, std::uint32_t mask, 
 
 void ObjectBoard::evaluate_line(std::uint32_t line, frame::FragmentLine& out) {
   check_line(line, out.columns());
-  if (touched_by_[line] == 0) return;
+  if (bands_.touched_by(line) == 0) return;
   ++counters_.lines_evaluated;
-  counters_.processors_visited += touched_by_[line];
+  counters_.processors_visited += bands_.touched_by(line);
   touched_ = {static_cast<std::int32_t>(columns_), 0};
-  for (const std::uint32_t slot : active(line))
+  for (const std::uint32_t slot : bands_.active(line))
     if (intervals_[slot].holds(static_cast<std::int32_t>(line))) evaluate_processor(slot, line, out);
   if (!touched_.empty()) resolve_winners(line, out);
 }

@@ -5,6 +5,8 @@
 
 namespace rastertlm::object_processor {
 
+inline constexpr std::uint32_t kBandLines = 8;  // lines whose spans are found together, from a multiple of it on
+
 // Columns or lines [begin, end).
 struct Interval {
   std::int32_t begin = 0;

@@ -16,14 +16,22 @@ LineComposer::LineComposer(const ObjectProcessorParameters& parameters, std::siz
       kernels_(&span_kernels(variant)),
       depth_(columns / 16 + 2),
       winner_(columns / 16 + 2) {
-  for (auto& component : normal_) component.resize(columns + frame::FragmentLine::kSpare);
+  for (auto* words : {&normal_, &solid_normal_})
+    for (auto& component : *words) component.resize(columns + frame::FragmentLine::kSpare);
+  for (auto& component : solid_link_) component.resize(columns + frame::FragmentLine::kSpare);
 }
 
 std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
                                     frame::FragmentLine& out) {
   out.clear();
   std::size_t spans = 0;
-  for (const frame::CoveredLine* board : boards) spans += board->count;
+  std::size_t solids = 0;
+  for (const frame::CoveredLine* board : boards) {
+    spans += board->count;
+    solids += board->solid_count;
+  }
+  first_solid_ = static_cast<std::uint32_t>(spans) + 1;
+  spans += solids;
   if (spans == 0) return 0;
   if (sources_.size() <= spans) sources_.resize(spans + 1);
   static constexpr frame::FragmentSource kNobody{};
@@ -51,6 +59,8 @@ std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> b
     request.link[i] = normalises ? link[i] : nullptr;
   }
   const std::uint64_t seen = kernels_->resolve(request);
+  if (solids > 0) compose_solids(boards, request);
+  // Pixels of solids had been given their normals before.
   if (!normalises) prenormaliser_.line({normal_[0].data(), normal_[1].data(), normal_[2].data()}, link, columns);
   return seen;
 }
@@ -62,6 +72,50 @@ void LineComposer::compare(std::span<const frame::CoveredLine* const> boards, st
   if (!in_keys) kernels_->fill(winner_.front().words, columns + 1, 0);
   kernels_->draw({boards.data(), boards.size(), line, word_bits_, sources_.data(), depth_.front().words,
                   in_keys ? nullptr : winner_.front().words});
+  std::uint32_t mark = first_solid_;
+  for (const frame::CoveredLine* board : boards)
+    for (std::size_t i = 0; i < board->solid_count; ++i, ++mark) {
+      const frame::SolidSpan& span = board->solids[i];
+      sources_[mark] = &span.source->middle;
+      kernels_->draw_solid({&span, mark, word_bits_, depth_.front().words, in_keys ? nullptr : winner_.front().words});
+    }
+}
+
+// A solid's source has given its pixels material, number and the normals at the middle of the ray; the normals at its
+// surface come here, where any of it is seen.
+void LineComposer::compose_solids(std::span<const frame::CoveredLine* const> boards, const ResolveRequest& request) {
+  std::uint32_t mark = first_solid_;
+  for (const frame::CoveredLine* board : boards)
+    for (std::size_t i = 0; i < board->solid_count; ++i, ++mark) {
+      const frame::SolidSpan& span = board->solids[i];
+      const auto is_seen = [&](std::uint32_t x) { return (request.winner[x] & request.mark_mask) == mark; };
+      std::uint32_t begin = span.begin;
+      std::uint32_t end = span.end;
+      while (begin < end && !is_seen(begin)) ++begin;
+      while (end > begin && !is_seen(end - 1)) --end;
+      if (begin < end) normals_of_solid(span, mark, {begin, end}, request);
+    }
+}
+
+void LineComposer::normals_of_solid(const frame::SolidSpan& span, std::uint32_t mark, const Columns& columns,
+                                    const ResolveRequest& request) {
+  SolidNormalRequest normals{&span, request.line, columns.begin, columns.end, {}};
+  for (std::size_t k = 0; k < 3; ++k) normals.normal[k] = solid_normal_[k].data();
+  kernels_->solid_normal(normals);
+  const bool normalises = request.link[0] != nullptr;
+  const std::size_t count = columns.end - columns.begin;
+  if (normalises)
+    prenormaliser_.line({solid_normal_[0].data(), solid_normal_[1].data(), solid_normal_[2].data()},
+                        {solid_link_[0].data(), solid_link_[1].data(), solid_link_[2].data()}, count);
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t x = columns.begin + i;
+      if ((request.winner[x] & request.mark_mask) != mark) continue;
+      if (normalises)
+        request.link[k][x] = solid_link_[k][i];
+      else
+        request.normal[k][x] = solid_normal_[k][i];
+    }
 }
 
 void LineComposer::observe(std::span<const frame::CoveredLine* const> boards, bool in_keys,
@@ -74,6 +128,13 @@ void LineComposer::observe(std::span<const frame::CoveredLine* const> boards, bo
   for (const frame::CoveredLine* board : boards)
     for (std::size_t i = 0; i < board->count; ++i)
       for (std::uint32_t column = board->spans[i].begin; column < board->spans[i].end; ++column) ++coverage[column];
+  for (const frame::CoveredLine* board : boards)
+    for (std::size_t i = 0; i < board->solid_count; ++i) {
+      const frame::SolidSpan& span = board->solids[i];
+      for (std::uint32_t column = span.begin; column < span.end; ++column)
+        coverage[column] =
+            static_cast<std::uint16_t>(coverage[column] + (span.depth[column - span.begin] != word_mask_ ? 1U : 0U));
+    }
 }
 
 }  // namespace rastertlm::object_processor

@@ -53,8 +53,7 @@ ObjectBoard::ObjectBoard(const ObjectProcessorParameters& parameters, std::uint3
       everything_(visit == Visit::everything),
       late_carry_(parameters.carry_clock == CarryClock::clock2 && parameters.slices() > 1),
       kernels_(span_kernels(variant)),
-      band_begin_(std::size_t{(lines + kBandLines - 1) / kBandLines} + 1, 0),
-      touched_by_(std::size_t{lines} + 1, 0),
+      bands_(lines),
       winner_(std::size_t{columns} + 1, 0),
       seen_(std::size_t{kBandLines} * ((columns + 63) / 64), 0) {
   for (auto& component : normal_) component.resize(columns + frame::FragmentLine::kSpare);
@@ -161,8 +160,7 @@ std::uint32_t ObjectBoard::slots_in_use() const {
 std::uint64_t ObjectBoard::memory_bytes() const {
   const std::uint64_t a_slot = sizeof(Loading) + sizeof(Edges) + sizeof(frame::FragmentSource) + sizeof(Borders) +
                                sizeof(Interval) + 2 * sizeof(std::uint8_t);
-  const std::uint64_t indices =
-      changes_.capacity() + band_begin_.capacity() + band_slots_.capacity() + touched_by_.capacity();
+  const std::uint64_t indices = changes_.capacity() + bands_.words();
   return loading_.capacity() * a_slot + indices * sizeof(std::uint32_t) +
          spans_.capacity() * sizeof(frame::CoveredSpan) + std::uint64_t{columns_} * 4 * sizeof(std::uint32_t);
 }
@@ -189,43 +187,10 @@ std::uint32_t ObjectBoard::copy() {
     changed_[slot] = 0;
   }
   const auto copied = static_cast<std::uint32_t>(changes_.size());
-  if (copied > 0) sort_into_bands();
+  if (copied > 0) bands_.sort(intervals_);
   changes_.clear();
   ready_first_ = kNone;
   return copied;
-}
-
-// A counting sort: by band, and in the order of numbers within one.
-void ObjectBoard::sort_into_bands() {
-  std::fill(touched_by_.begin(), touched_by_.end(), 0U);
-  std::fill(band_begin_.begin(), band_begin_.end(), 0U);
-  const auto first_band = [](const Interval& lines) { return static_cast<std::size_t>(lines.begin) / kBandLines; };
-  const auto end_band = [](const Interval& lines) {
-    return (static_cast<std::size_t>(lines.end) - 1) / kBandLines + 1;
-  };
-  for (const Interval& lines : intervals_) {
-    if (lines.empty()) continue;
-    // Modulo 2^32: sums from the first line on are right.
-    ++touched_by_[static_cast<std::size_t>(lines.begin)];
-    --touched_by_[static_cast<std::size_t>(lines.end)];
-    ++band_begin_[first_band(lines)];
-    --band_begin_[end_band(lines)];
-  }
-  for (std::size_t line = 0; line < lines_; ++line) touched_by_[line + 1] += touched_by_[line];
-  std::uint32_t in_band = 0;
-  std::uint32_t before = 0;
-  for (std::uint32_t& begin : band_begin_) {
-    in_band += begin;
-    begin = before;
-    before += in_band;
-  }
-  band_slots_.resize(before);
-  std::vector<std::uint32_t> next(band_begin_.begin(), band_begin_.end() - 1);
-  for (std::uint32_t slot = 0; slot < intervals_.size(); ++slot) {
-    const Interval& lines = intervals_[slot];
-    if (lines.empty()) continue;
-    for (std::size_t band = first_band(lines); band < end_band(lines); ++band) band_slots_[next[band]++] = slot;
-  }
 }
 
 void ObjectBoard::check_line(std::uint32_t line, std::size_t columns) const {
@@ -233,11 +198,6 @@ void ObjectBoard::check_line(std::uint32_t line, std::size_t columns) const {
     throw ModelError("object_board", 0,
                      fmt::format("line {} of {} columns asked of a board of {} lines of {} columns", line, columns,
                                  lines_, columns_));
-}
-
-std::span<const std::uint32_t> ObjectBoard::active(std::uint32_t line) const {
-  const std::size_t band = line / kBandLines;
-  return std::span(band_slots_).subspan(band_begin_[band], band_begin_[band + 1] - band_begin_[band]);
 }
 
 ObjectBoard::LineEdges ObjectBoard::line_edges(std::uint32_t slot, std::uint32_t line) const {

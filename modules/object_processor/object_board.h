@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "modules/object_processor/band_index.h"
 #include "modules/object_processor/line_evaluator.h"
 #include "modules/object_processor/parameters.h"
 #include "modules/object_processor/prenormaliser.h"
@@ -110,10 +111,7 @@ class ObjectBoard {
   void reserve(std::size_t slots);
   void load(std::uint32_t slot);
   Interval interval_of(const Edges& edges, const HalfPlanes& planes) const;
-  void sort_into_bands();
   void check_line(std::uint32_t line, std::size_t columns) const;
-  // The slots that can touch a line of the band, in order of their numbers.
-  std::span<const std::uint32_t> active(std::uint32_t line) const;
   void make_ready(std::uint32_t line);
   void evaluate_processor(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out);
   void evaluate_late_carry(std::uint32_t slot, std::uint32_t line, frame::FragmentLine& out);
@@ -158,9 +156,7 @@ class ObjectBoard {
   std::vector<std::uint8_t> changed_;  // since the last copy
 
   std::vector<std::uint32_t> changes_;     // the slots with changed_ set
-  std::vector<std::uint32_t> band_begin_;  // bands + 1: where the slots that can touch a band stand in band_slots_
-  std::vector<std::uint32_t> band_slots_;  // in order of their numbers within a band
-  std::vector<std::uint32_t> touched_by_;  // a line: how many slots can touch it
+  BandIndex bands_;
 
   std::vector<frame::CoveredSpan> spans_;  // of the band that is ready
 

@@ -12,8 +12,6 @@
 
 namespace rastertlm::object_processor {
 
-inline constexpr std::uint32_t kBandLines = 8;  // lines whose spans are found together
-
 // The borders of a triangle, linear functions slope * line + offset: pixels are at or right of 0 and 1, and at or left
 // of 2 and 3. Offsets are moved by a quarter of the least distance of a column from an edge, so that rounding in double
 // errs nowhere.
@@ -65,6 +63,24 @@ struct DrawRequest {
   std::uint32_t* winner = nullptr;  // mark of the nearest; null: depth holds keys
 };
 
+// A solid's span against what is nearest so far; as DrawRequest's.
+struct SolidDrawRequest {
+  const frame::SolidSpan* span = nullptr;
+  std::uint32_t mark = 0;
+  unsigned word_bits = 24;
+  std::uint32_t* depth = nullptr;
+  std::uint32_t* winner = nullptr;
+};
+
+// The normals of a solid's span on the columns [begin, end) of it, before normalisation.
+struct SolidNormalRequest {
+  const frame::SolidSpan* span = nullptr;
+  std::uint32_t line = 0;
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  std::uint32_t* normal[3] = {};  // written, from column `begin` on
+};
+
 struct ResolveRequest {
   const std::uint32_t* winner = nullptr;  // marks, in the bits of mark_mask
   std::uint32_t mark_mask = 0;
@@ -97,6 +113,8 @@ struct SpanKernels {
   void (*fill)(std::uint32_t* words, std::size_t count, std::uint32_t value);
   // The depth comparator along spans, in order: strictly nearer wins.
   void (*draw)(const DrawRequest& request);
+  void (*draw_solid)(const SolidDrawRequest& request);
+  void (*solid_normal)(const SolidNormalRequest& request);
   // Words of the winners, pre-normalised. Returns how many pixels have one.
   std::uint64_t (*resolve)(const ResolveRequest& request);
   // The pre-normalisation unit.

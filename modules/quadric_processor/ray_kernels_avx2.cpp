@@ -1,0 +1,2 @@
+#define RASTERTLM_RAY_KERNEL ray_kernel_avx2
+#include "modules/quadric_processor/ray_kernels_body.inc"
