@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "modules/object_processor/band_index.h"
+#include "modules/object_processor/bus_address.h"
 #include "modules/object_processor/line_evaluator.h"
 #include "modules/object_processor/parameters.h"
 #include "modules/object_processor/prenormaliser.h"
@@ -35,6 +36,11 @@ struct BoardCounters {
 
 class ObjectBoard {
  public:
+  // For whoever stands on the bus (board_module.h).
+  using SlotImage = ProcessorWords;
+  static constexpr unsigned kSlotShift = kProcessorShift;
+  static constexpr std::size_t words_a_slot() { return kWords; }
+
   // `processors` slots, numbered from `first_processor` in the whole machine. `columns` and `lines` 1..16384. Every
   // slot starts parked.
   ObjectBoard(const ObjectProcessorParameters& parameters, std::uint32_t processors, std::uint32_t first_processor,
@@ -155,7 +161,7 @@ class ObjectBoard {
   std::uint32_t careful_count_ = 0;
   std::vector<std::uint8_t> changed_;  // since the last copy
 
-  std::vector<std::uint32_t> changes_;     // the slots with changed_ set
+  std::vector<std::uint32_t> changes_;  // the slots with changed_ set
   BandIndex bands_;
 
   std::vector<frame::CoveredSpan> spans_;  // of the band that is ready

@@ -34,8 +34,8 @@ struct QuadricScreen {
 
 class QuadricBoard {
  public:
-  static constexpr std::size_t kBurst = kMostWords;  // words of a slot at most
-  using BurstWords = std::array<std::uint32_t, kBurst>;
+  using SlotImage = QuadricImage;
+  static constexpr unsigned kSlotShift = kQuadricShift;
 
   // `processors` slots; until it is told otherwise, slot i shows the object first_processor + i + 1. Every slot starts
   // parked.

@@ -7,10 +7,11 @@ namespace rastertlm::quadric_processor {
 namespace {
 
 // Where the parts of a slot begin.
-constexpr std::size_t kMiddle = 12;
-constexpr std::size_t kNormal = 18;
-constexpr std::size_t kNormalOfRoot = 27;
-constexpr std::size_t kControl = 30;
+constexpr std::size_t kControl = 0;
+constexpr std::size_t kDiscriminant = 1;
+constexpr std::size_t kMiddle = 13;
+constexpr std::size_t kNormal = 19;
+constexpr std::size_t kNormalOfRoot = 28;
 
 constexpr unsigned kPartBit = 8;
 constexpr unsigned kShiftBit = 16;
@@ -60,7 +61,7 @@ QuadricWords parked_quadric(unsigned word_bits) {
 QuadricImage to_image(const QuadricWords& words) {
   QuadricImage image{};
   const SecondOrderWords& d = words.discriminant;
-  std::size_t at = 0;
+  std::size_t at = kDiscriminant;
   for (const std::uint64_t value : {d.v0, d.dy, d.two_b, d.d0, d.c, d.two_a}) {
     put_wide(value, &image[at]);
     at += 2;
@@ -84,7 +85,8 @@ QuadricImage to_image(const QuadricWords& words) {
 QuadricWords to_quadric(std::span<const std::uint32_t, kMostWords> image) {
   QuadricWords words;
   const std::uint32_t* const at = image.data();
-  words.discriminant = {wide(at), wide(at + 2), wide(at + 4), wide(at + 6), wide(at + 8), wide(at + 10)};
+  const std::uint32_t* const d = at + kDiscriminant;
+  words.discriminant = {wide(d), wide(d + 2), wide(d + 4), wide(d + 6), wide(d + 8), wide(d + 10)};
   words.middle = plane_at(at + kMiddle);
   for (std::size_t i = 0; i < 3; ++i) {
     words.normal[i] = {at[kNormal + 3 * i], at[kNormal + 3 * i + 1], at[kNormal + 3 * i + 2]};

@@ -70,14 +70,15 @@ inline constexpr unsigned kMultiplierInteger = 8;
 // The words of a slot without a solid: its discriminant is -1 everywhere.
 QuadricWords parked_quadric(unsigned word_bits);
 
-// On the bus, in words of 32 bits: the discriminant's six, two each; l's three, two each; nine of E; three k; a word of
-// control (material 0..7, part 8..9, root_shift 16..21 in two's complement, caps 24.. two bits each); then nine of each
-// cap, plane and normal.
-inline constexpr std::size_t kWordsWithoutCaps = 12 + 6 + 9 + 3 + 1;
+// On the bus, in words of 32 bits: a word of control (material 0..7, part 8..9, root_shift 16..21 in two's complement,
+// caps 24.. two bits each); the discriminant's six, two each; l's three, two each; nine of E; three k; then nine of
+// each cap, plane and normal.
+inline constexpr std::size_t kWordsWithoutCaps = 1 + 12 + 6 + 9 + 3;
 inline constexpr std::size_t kWordsOfCap = 6 + 3;
 inline constexpr std::size_t kMostWords = kWordsWithoutCaps + kMostCaps * kWordsOfCap;
 constexpr std::size_t words_of_slot(std::size_t caps) { return kWordsWithoutCaps + caps * kWordsOfCap; }
-inline constexpr std::size_t kParkWords = 12;  // the discriminant alone
+inline constexpr unsigned kQuadricShift = 9;   // of a slot's address on the bus: 128 words of 4 bytes
+inline constexpr std::size_t kParkWords = 13;  // control and discriminant
 
 using QuadricImage = std::array<std::uint32_t, kMostWords>;
 QuadricImage to_image(const QuadricWords& words);
