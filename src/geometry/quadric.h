@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -176,6 +177,83 @@ inline glm::dvec3 quadric_normal(const ScreenQuadric<double>& quadric, QuadricHi
   for (std::size_t i = 0; i < 3; ++i)
     normal[static_cast<int>(i)] = quadric.normal[i].at(column, line) + quadric.normal_of_root[i] * signed_root;
   return normal;
+}
+
+// The ray of a pixel, in any space that `from_screen` takes the screen to: the point at depth Z is from + Z along,
+// homogeneous, with w above 0 at depths in 0..1.
+struct PixelRay {
+  glm::dvec4 from{0.0};
+  glm::dvec4 along{0.0};  // the same for every pixel
+  glm::dvec4 at(double depth) const { return from + depth * along; }
+};
+
+inline PixelRay pixel_ray(const glm::dmat4& from_screen, double column, double line) {
+  return {column * from_screen[0] + line * from_screen[1] + from_screen[3], from_screen[2]};
+}
+
+// Where a Z^2 + 2 L Z + P <= 0: between two depths, or outside of them (then one interval ends at the first, another
+// begins at the second), or everywhere, or nowhere.
+struct DepthIntervals {
+  double first = 0.0, second = 0.0;
+  bool between = true;
+  bool any = true;
+};
+
+// Also where `a` is 0 or next to it, and without cancellation in the roots.
+inline DepthIntervals depths_inside(double a, double l, double p) {
+  constexpr double kEnd = std::numeric_limits<double>::infinity();
+  const double d = l * l - a * p;
+  if (a == 0.0 && l == 0.0) return {-kEnd, kEnd, true, p <= 0.0};
+  if (a == 0.0) return l > 0.0 ? DepthIntervals{-kEnd, -p / (2.0 * l)} : DepthIntervals{-p / (2.0 * l), kEnd};
+  if (d < 0.0) return {-kEnd, kEnd, true, a < 0.0};
+  const double q = -(l + std::copysign(std::sqrt(d), l));
+  const double one = q / a, other = q == 0.0 ? 0.0 : p / q;
+  return {std::min(one, other), std::max(one, other), a > 0.0};
+}
+
+// The same where the depth half way between the roots is no large number: `value` is the left side there, which a point
+// near the surface gives with more digits than L^2 - a P.
+inline DepthIntervals depths_about(double a, double middle, double value) {
+  constexpr double kEnd = std::numeric_limits<double>::infinity();
+  const double square = -value / a;
+  if (square < 0.0) return {-kEnd, kEnd, true, a < 0.0};
+  return {middle - std::sqrt(square), middle + std::sqrt(square), a > 0.0};
+}
+
+inline DepthIntervals depths_inside(const glm::dmat4& quadric, const PixelRay& ray) {
+  constexpr double kNear = 4.0;  // beyond the far plane or before the near one, in depth ranges
+  const glm::dvec4 to_along = quadric * ray.along;
+  const double a = glm::dot(ray.along, to_along), l = glm::dot(ray.from, to_along);
+  if (!(std::fabs(l) < kNear * std::fabs(a))) return depths_inside(a, l, glm::dot(ray.from, quadric * ray.from));
+  const double middle = -l / a;
+  const glm::dvec4 there = ray.at(middle);
+  return depths_about(a, middle, glm::dot(there, quadric * there));
+}
+
+// first_hit as above, for whoever wants it exact: a solid in the space of the ray, whatever a is.
+inline std::optional<QuadricHit> first_hit(const glm::dmat4& quadric, std::span<const glm::dvec4> planes,
+                                           const PixelRay& ray) {
+  using Surface = QuadricHit::Surface;
+  constexpr double kEnd = std::numeric_limits<double>::infinity();
+  QuadricHit first{0.0, Surface::near_plane, 0};
+  double last = 1.0;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const double slope = glm::dot(planes[i], ray.along), start = glm::dot(planes[i], ray.from);
+    const double at = -start / slope;
+    if (slope == 0.0 && start > 0.0) return std::nullopt;
+    if (slope < 0.0 && at > first.depth) first = {at, Surface::plane, i};
+    if (slope > 0.0) last = std::min(last, at);
+  }
+  const DepthIntervals inside = depths_inside(quadric, ray);
+  if (!inside.any) return std::nullopt;
+  const auto within = [&](double from, double to, Surface surface) -> std::optional<QuadricHit> {
+    const QuadricHit hit = from > first.depth ? QuadricHit{from, surface, 0} : first;
+    if (hit.depth > std::min(to, last)) return std::nullopt;
+    return hit;
+  };
+  if (inside.between) return within(inside.first, inside.second, Surface::near_root);
+  if (const auto before = within(-kEnd, inside.first, Surface::near_root)) return before;
+  return within(inside.second, kEnd, Surface::far_root);
 }
 
 }  // namespace rastertlm::geometry

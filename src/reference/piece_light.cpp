@@ -59,19 +59,21 @@ glm::dvec3 PieceLight::levels(const Piece& piece, const std::array<double, 2>& o
 }
 
 glm::dvec3 PieceLight::levels(const Piece& piece, const std::array<double, 2>& on_screen, float& specular) const {
-  glm::dvec3 viewer(0.0, 0.0, 1.0);
   glm::dvec3 position(0.0);
   std::array<double, 2> weights = on_screen;
   if (kind_ == Reference::true_model) weights = on_surface(piece, on_screen);
-  if (kind_ == Reference::true_model || any_at_point_) {
+  if (kind_ == Reference::true_model || any_at_point_)
     position = interpolated(piece.eye_positions[0], piece.eye_positions[1], piece.eye_positions[2], weights);
-    if (viewer_at_eye_) viewer = geometry::normalised<double>(-position);
-  }
-  const glm::dvec3 normal = geometry::normalised<double>(normal_at(piece, weights));
+  return levels(piece.material, normal_at(piece, weights), position, specular);
+}
+
+glm::dvec3 PieceLight::levels(std::uint16_t material, const glm::dvec3& normal, const glm::dvec3& position,
+                              float& specular) const {
+  const glm::dvec3 viewer = viewer_at_eye_ ? geometry::normalised<double>(-position) : glm::dvec3(0.0, 0.0, 1.0);
   glm::dvec3 shine(0.0);
   const glm::dvec3 light =
-      geometry::illumination<double>(surfaces_[piece.material], std::span<const LightSource>(lights_), rules_, normal,
-                                     viewer, position, ShineObserver{shine});
+      geometry::illumination<double>(surfaces_[material], std::span<const LightSource>(lights_), rules_,
+                                     geometry::normalised<double>(normal), viewer, position, ShineObserver{shine});
   specular = largest_level(shine);
   return {std::clamp(kFullScale * light.x, 0.0, kFullScale), std::clamp(kFullScale * light.y, 0.0, kFullScale),
           std::clamp(kFullScale * light.z, 0.0, kFullScale)};

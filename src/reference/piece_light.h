@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -21,6 +22,10 @@ class PieceLight {
   glm::dvec3 levels(const Piece& piece, const std::array<double, 2>& on_screen) const;
   // The same; `specular` takes the largest of the levels that specular light adds to a channel.
   glm::dvec3 levels(const Piece& piece, const std::array<double, 2>& on_screen, float& specular) const;
+
+  // Of any point: `normal` outwards, of any length, and `position` in eye space.
+  glm::dvec3 levels(std::uint16_t material, const glm::dvec3& normal, const glm::dvec3& position,
+                    float& specular) const;
 
   // What the equation is given; `normal` of piece at those weights is not of unit length.
   static glm::dvec3 normal_at(const Piece& piece, const std::array<double, 2>& weights);

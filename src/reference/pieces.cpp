@@ -131,6 +131,7 @@ geometry::FrameGrid cut_all(const scene::Scene& scene, const scene::Pose& pose, 
   std::uint32_t number = 0;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Mesh& mesh = scene.objects[o].mesh;
+    if (scene.objects[o].solid) ++number;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       Piece what;
       what.object = ++number;

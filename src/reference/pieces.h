@@ -14,7 +14,7 @@ namespace rastertlm::reference {
 
 // A piece of a triangle, its corners clockwise as seen.
 struct Piece {
-  std::uint32_t object = 0;                                 // number of the triangle, from 1
+  std::uint32_t object = 0;                                 // number of the triangle among what is drawn, from 1
   std::uint16_t material = 0;                               // an index of Scene::materials
   std::uint32_t body = 0;                                   // an index of Scene::objects
   std::array<geometry::ScreenVertex<double>, 3> corners{};  // normals towards the viewer's side, not of unit length

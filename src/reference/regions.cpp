@@ -12,8 +12,8 @@ using frame::Region;
 
 class Marker {
  public:
-  Marker(ExactFrame& picture, const SurfaceEnds& surface_ends)
-      : picture_(picture), surface_ends_(surface_ends), silhouette_(picture.pixels(), 0) {}
+  Marker(ExactFrame& picture, const SurfaceEnds& surface_ends, const SurfaceEnds& hides_itself)
+      : picture_(picture), surface_ends_(surface_ends), hides_itself_(hides_itself), silhouette_(picture.pixels(), 0) {}
 
   void find_edges() {
     for (std::size_t line = 0; line < picture_.lines; ++line)
@@ -39,7 +39,10 @@ class Marker {
   void between(std::size_t pixel, std::size_t step, std::uint8_t edge, bool has_outer_neighbours) {
     const std::vector<std::uint32_t>& object = picture_.object;
     const std::size_t next = pixel + step;
-    if (object[pixel] == object[next]) return;
+    if (object[pixel] == object[next]) {
+      if (object[pixel] != 0 && hides_itself_ && hides_itself_(pixel, next)) silhouette_[pixel] = silhouette_[next] = 1;
+      return;
+    }
     if (object[pixel] == 0 || object[next] == 0 || surface_ends_(pixel, next)) {
       silhouette_[pixel] = silhouette_[next] = 1;
     } else if (has_outer_neighbours && object[pixel - step] == object[pixel] && object[next] == object[next + step]) {
@@ -49,15 +52,17 @@ class Marker {
 
   ExactFrame& picture_;
   const SurfaceEnds& surface_ends_;
+  const SurfaceEnds& hides_itself_;
   std::vector<std::uint8_t> silhouette_;  // beside the edge itself
 };
 
 }  // namespace
 
-void mark_regions(ExactFrame& picture, std::span<const float> specular_levels, const SurfaceEnds& surface_ends) {
+void mark_regions(ExactFrame& picture, std::span<const float> specular_levels, const SurfaceEnds& surface_ends,
+                  const SurfaceEnds& hides_itself) {
   if (specular_levels.size() != picture.pixels())
     throw std::invalid_argument("mark_regions: the specular levels are not of the picture");
-  Marker marker(picture, surface_ends);
+  Marker marker(picture, surface_ends, hides_itself);
   marker.find_edges();
   for (std::size_t line = 0; line < picture.lines; ++line)
     for (std::size_t column = 0; column < picture.columns; ++column) {

@@ -10,13 +10,15 @@
 #include "src/reference/piece_light.h"
 #include "src/reference/pieces.h"
 #include "src/reference/regions.h"
+#include "src/reference/solids.h"
 
 namespace rastertlm::reference {
 namespace {
 
-// What is seen at a pixel, kept until every piece is drawn: only that is shaded.
+// What is seen at a pixel, kept until everything is drawn: only that is shaded.
 struct Seen {
-  std::uint32_t piece = 0;            // index + 1; 0 nothing
+  std::uint32_t piece = 0;            // index + 1; 0 none
+  std::uint32_t solid = 0;            // likewise
   std::uint32_t last_covered_by = 0;  // the last triangle that was counted
   std::array<double, 2> weights{};
 };
@@ -99,6 +101,48 @@ void draw(const Piece& piece, std::uint32_t index, const Coverage<N>& coverage, 
   }
 }
 
+void draw(const PlacedSolid& solid, std::uint32_t index, frame::ExactFrame& out, std::vector<Seen>& seen) {
+  for (std::size_t y = 0; y < out.lines; ++y)
+    for (std::size_t x = 0; x < out.columns; ++x) {
+      const std::size_t pixel = y * out.columns + x;
+      const auto hit = solid.hit(static_cast<double>(x), static_cast<double>(y));
+      if (!hit) continue;
+      ++out.coverage[pixel];
+      const bool nearer = hit->depth < out.depth[pixel];
+      const bool first_of_equals = hit->depth == out.depth[pixel] && solid.number() < out.object[pixel];
+      if (out.object[pixel] != 0 && !nearer && !first_of_equals) continue;
+      seen[pixel] = {};
+      seen[pixel].solid = index + 1;
+      out.depth[pixel] = hit->depth;
+      out.object[pixel] = solid.number();
+    }
+}
+
+glm::dvec3 levels_of(const PlacedSolid& solid, const PieceLight& light, double column, double line, float& specular) {
+  const PlacedSolid::Point point = solid.point(solid.hit(column, line).value(), column, line);
+  return light.levels(solid.material(), point.normal, point.position, specular);
+}
+
+glm::dvec2 place_of(std::size_t pixel, std::size_t columns) {
+  return {static_cast<double>(pixel % columns), static_cast<double>(pixel / columns)};
+}
+
+void mark(frame::ExactFrame& out, const std::vector<float>& specular, const std::vector<Piece>& pieces,
+          const std::vector<PlacedSolid>& solids, const std::vector<Seen>& seen) {
+  const auto ends = [&](std::size_t pixel, std::size_t neighbour) {
+    if (seen[pixel].solid != 0 || seen[neighbour].solid != 0) return true;
+    return surface_ends(pieces[seen[pixel].piece - 1], pieces[seen[neighbour].piece - 1], pixel, neighbour,
+                        out.columns);
+  };
+  const auto hides_itself = [&](std::size_t pixel, std::size_t neighbour) {
+    if (seen[pixel].solid == 0) return false;
+    const PlacedSolid& solid = solids[seen[pixel].solid - 1];
+    return solid.may_hide_itself() &&
+           solid.jumps(place_of(pixel, out.columns), place_of(neighbour, out.columns), kLeastGap);
+  };
+  mark_regions(out, specular, ends, hides_itself);
+}
+
 }  // namespace
 
 std::string to_string(Reference reference) {
@@ -127,17 +171,20 @@ frame::ExactFrame render(const scene::Scene& scene, const scene::Pose& pose, con
     else
       draw(piece, index, plain_coverage(piece), out, seen);
   }
+  const std::vector<PlacedSolid> solids = placed_solids(scene, pose, {options.columns, options.lines});
+  for (std::size_t i = 0; i < solids.size(); ++i) draw(solids[i], static_cast<std::uint32_t>(i), out, seen);
   std::vector<float> specular(out.pixels(), 0.0F);
   for (std::size_t pixel = 0; pixel < out.pixels(); ++pixel) {
     const Seen& here = seen[pixel];
-    const glm::dvec3 levels =
-        here.piece == 0 ? scene.background : light.levels(drawn.list[here.piece - 1], here.weights, specular[pixel]);
+    glm::dvec3 levels = scene.background;
+    if (here.piece != 0) levels = light.levels(drawn.list[here.piece - 1], here.weights, specular[pixel]);
+    if (here.solid != 0) {
+      const glm::dvec2 place = place_of(pixel, out.columns);
+      levels = levels_of(solids[here.solid - 1], light, place.x, place.y, specular[pixel]);
+    }
     for (int c = 0; c < 3; ++c) out.rgb[3 * pixel + static_cast<std::size_t>(c)] = levels[c];
   }
-  mark_regions(out, specular, [&](std::size_t pixel, std::size_t neighbour) {
-    return surface_ends(drawn.list[seen[pixel].piece - 1], drawn.list[seen[neighbour].piece - 1], pixel, neighbour,
-                        out.columns);
-  });
+  mark(out, specular, drawn.list, solids, seen);
   return out;
 }
 

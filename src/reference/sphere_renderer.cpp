@@ -27,9 +27,11 @@ struct Hit {
 
 std::vector<Sphere> spheres_of(const scene::Scene& scene, const scene::Pose& pose) {
   std::vector<Sphere> spheres;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    spheres.push_back(
-        {glm::dvec3(pose.object_to_eye[i][3]), scene.objects[i].sphere_radius, scene.objects[i].mesh.material.front()});
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const scene::Object& object = scene.objects[i];
+    spheres.push_back({glm::dvec3(pose.object_to_eye[i][3]), object.sphere_radius,
+                       object.solid ? object.solid->material : object.mesh.material.front()});
+  }
   return spheres;
 }
 

@@ -1,5 +1,5 @@
-// The exact picture of spheres: not of the meshes that stand for them. What a machine's picture lacks of it is the
-// mesh's fault as well.
+// The exact picture of spheres, solids or not of the meshes that stand for them: what a machine's picture lacks of it
+// is a mesh's fault as well.
 #pragma once
 
 #include <cstddef>
