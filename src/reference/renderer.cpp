@@ -102,8 +102,9 @@ void draw(const Piece& piece, std::uint32_t index, const Coverage<N>& coverage, 
 }
 
 void draw(const PlacedSolid& solid, std::uint32_t index, frame::ExactFrame& out, std::vector<Seen>& seen) {
-  for (std::size_t y = 0; y < out.lines; ++y)
-    for (std::size_t x = 0; x < out.columns; ++x) {
+  const PlacedSolid::Box box = solid.box({out.columns, out.lines});
+  for (std::size_t y = box.first_line; y < box.end_line; ++y)
+    for (std::size_t x = box.first_column; x < box.end_column; ++x) {
       const std::size_t pixel = y * out.columns + x;
       const auto hit = solid.hit(static_cast<double>(x), static_cast<double>(y));
       if (!hit) continue;

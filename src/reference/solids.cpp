@@ -1,13 +1,36 @@
 #include "src/reference/solids.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 namespace rastertlm::reference {
 
 using geometry::PixelRay;
 using geometry::QuadricHit;
+
+namespace {
+
+struct Range {
+  double low, high;
+};
+
+// Where a t^2 + 2 b t + c >= 0, of a < 0; the apex alone where it is nowhere.
+Range where_positive(double a, double b, double c) {
+  const double root = std::sqrt(std::max(b * b - a * c, 0.0));
+  return {(b - root) / -a, (b + root) / -a};
+}
+
+// Of 0..count - 1, with two pixels to spare on either side.
+std::pair<std::size_t, std::size_t> pixels_of(const Range& range, std::size_t count) {
+  const auto last = static_cast<double>(count);
+  return {static_cast<std::size_t>(std::clamp(std::floor(range.low) - 2.0, 0.0, last)),
+          static_cast<std::size_t>(std::clamp(std::ceil(range.high) + 3.0, 0.0, last))};
+}
+
+}  // namespace
 
 PlacedSolid::PlacedSolid(const geometry::Solid& solid, std::uint32_t number, const glm::dmat4& object_to_eye,
                          const glm::dmat4& screen_to_eye)
@@ -17,6 +40,23 @@ PlacedSolid::PlacedSolid(const geometry::Solid& solid, std::uint32_t number, con
   covector_to_eye_ = glm::dmat3x4(back);
   const glm::dvec4& along = screen_to_solid_[2];
   may_hide_itself_ = glm::dot(along, solid.quadric * along) < 0.0;
+}
+
+// The rays that meet the whole quadric where a > 0: L^2 - a P >= 0, a conic section on the screen. It has a box where
+// it is an ellipse, clearly; else all pixels may see the solid.
+PlacedSolid::Box PlacedSolid::box(const geometry::Viewport& viewport) const {
+  constexpr double kClearly = 1e-6;  // of what a difference is made of
+  const Box all{0, viewport.columns, 0, viewport.lines};
+  const glm::dmat4 q = glm::transpose(screen_to_solid_) * solid_->quadric * screen_to_solid_;
+  const double a = q[2][2];
+  const auto conic = [&](int i, int k) { return q[i][2] * q[k][2] - a * q[i][k]; };
+  const double xx = conic(0, 0), yy = conic(1, 1), xy = conic(0, 1), x = conic(0, 3), y = conic(1, 3);
+  const double one = conic(3, 3), determinant = xx * yy - xy * xy;
+  const auto is_clear = [&](int i) { return conic(i, i) < -kClearly * (q[i][2] * q[i][2] + std::fabs(a * q[i][i])); };
+  if (!(a > 0.0) || !is_clear(0) || !is_clear(1) || !(determinant > kClearly * xx * yy)) return all;
+  const auto columns = pixels_of(where_positive(-determinant, xy * y - yy * x, y * y - yy * one), viewport.columns);
+  const auto lines = pixels_of(where_positive(-determinant, xy * x - xx * y, x * x - xx * one), viewport.lines);
+  return {columns.first, columns.second, lines.first, lines.second};
 }
 
 std::optional<QuadricHit> PlacedSolid::hit(double column, double line) const {

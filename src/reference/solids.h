@@ -23,6 +23,12 @@ class PlacedSolid {
   std::uint32_t number() const { return number_; }
   std::uint16_t material() const { return solid_->material; }
 
+  // Pixels outside of it do not see the solid: half-open, of the screen's.
+  struct Box {
+    std::size_t first_column = 0, end_column = 0, first_line = 0, end_line = 0;
+  };
+  Box box(const geometry::Viewport& viewport) const;
+
   // What the ray of the pixel sees first, between the near and the far plane. Columns and lines may lie between pixels.
   std::optional<geometry::QuadricHit> hit(double column, double line) const;
 

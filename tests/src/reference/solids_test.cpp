@@ -318,6 +318,41 @@ TEST(Solids, Regions) {
   EXPECT_GT(std::count(ball.region.begin(), ball.region.end(), frame::Region::highlights), 50);
 }
 
+// What is outside of the box is not seen; spheres and ellipsoids have one that fits.
+TEST(Solids, AreSeenInTheirBoxesAlone) {
+  Random random(9);
+  int boxed = 0, seen = 0, outside = 0;
+  std::size_t spared = 0;
+  for (int round = 0; round < 40; ++round)
+    for (const KnownSolid& known : one_of_each(random, round % 2 == 0)) {
+      scene::SceneDescription d = lit_scene(camera_of(round % 3 != 0, 8));
+      d.objects = {known.object};
+      const double size = round % 4 == 0 ? 0.01 : 1.0;
+      d.objects[0].scale = {size * random.between(0.3, 1.5), size, size};
+      d.objects[0].rotate_deg = {random.between(-180, 180), random.between(-180, 180), random.between(-180, 180)};
+      d.objects[0].translate = {random.between(-4, 4), random.between(-3, 3), random.between(-3, 3)};
+      const scene::Scene scene = scene::build_scene(d, "scene.toml", ".");
+      const geometry::Viewport viewport{64, 48};
+      const PlacedSolid solid = placed_solids(scene, scene::pose(scene, 0, 64, 48), viewport).at(0);
+      const PlacedSolid::Box box = solid.box(viewport);
+      const std::size_t pixels = (box.end_column - box.first_column) * (box.end_line - box.first_line);
+      if (pixels < 64 * 48) ++boxed;
+      for (std::size_t y = 0; y < 48; ++y)
+        for (std::size_t x = 0; x < 64; ++x) {
+          if (!solid.hit(static_cast<double>(x), static_cast<double>(y))) continue;
+          ++seen;
+          const bool in = x >= box.first_column && x < box.end_column && y >= box.first_line && y < box.end_line;
+          if (!in) ++outside;
+        }
+      if (known.object.kind == ObjectKind::sphere || known.object.kind == ObjectKind::ellipsoid)
+        spared += 64 * 48 - pixels;
+    }
+  EXPECT_EQ(outside, 0);
+  EXPECT_GT(boxed, 60);
+  EXPECT_GT(seen, 10000);
+  EXPECT_GT(spared, 64U * 48U * 40U);  // half of all
+}
+
 // One intersection of a ray with a quadric, where its leading coefficient vanishes.
 TEST(DepthsInside, KeepTheirDigitsWhereTheEquationIsLinear) {
   for (const double a : {0.0, 1e-18, -1e-18, 1e-300}) {
