@@ -23,4 +23,8 @@ struct SlotMap {
 // Throws InputError, with both numbers, where objects are more than processors and overflow is "error".
 SlotMap assign_objects(std::size_t objects, const HostParameters& parameters);
 
+// The same for the scene's solids, numbered among themselves, and the quadric processors, `per_unit` a board: those of
+// one kind are dealt whatever the other has.
+SlotMap assign_solids(std::size_t solids, const HostParameters& parameters, std::int64_t per_unit);
+
 }  // namespace rastertlm::host

@@ -47,10 +47,16 @@ Computation::Computation(const ResidentScene& scene, const MachineFormat& format
       kernels_(set_up::triangle_kernels(variant)),
       object_corners_{} {
   std::vector<std::size_t> first_object;  // number of the first triangle of each mesh
+  std::vector<std::uint32_t> solids;      // before each
   std::size_t count = 0;
+  std::uint32_t solid_count = 0;
   for (const ResidentObject& object : scene.objects) {
     first_object.push_back(count);
-    count += object.mesh->triangles.size();
+    solids.push_back(solid_count);
+    if (object.solid != nullptr)
+      ++solid_count;
+    else
+      count += object.mesh->triangles.size();
   }
   triangles_.reserve(owners.size());
   std::vector<bool> owned(format.slots, false);
@@ -62,7 +68,7 @@ Computation::Computation(const ResidentScene& scene, const MachineFormat& format
     const ResidentObject& object = scene.objects[mesh];
     const std::size_t index = owner.object - first_object[mesh];
     const auto& corners = object.mesh->triangles[index];
-    triangles_.push_back({owner.object,
+    triangles_.push_back({owner.object + solids[mesh],
                           static_cast<std::uint32_t>(mesh),
                           {corners[0], corners[1], corners[2]},
                           owner.slot,

@@ -65,6 +65,7 @@ struct TriangleCounts {
 
 class Computation {
  public:
+  // `owners`: triangles of the scene, numbered from 0 in its order, and their slots.
   Computation(const ResidentScene& scene, const MachineFormat& format, const std::vector<SlotOwner>& owners,
               VectorVariant variant = vector_variant());
 
@@ -87,7 +88,7 @@ class Computation {
   enum class Fate : std::uint8_t { unknown, drawn, back_face, degenerate, outside };
 
   struct Triangle {
-    std::uint32_t object;  // of the machine: the triangle's number in the scene, from 0
+    std::uint32_t object;  // of the machine: triangles and solids counted together in the scene's order, from 0
     std::uint32_t mesh;    // object of the scene
     std::uint32_t corner[3];
     std::uint32_t slot;

@@ -62,6 +62,9 @@ void QuadricParameters::declare(parameter::Table& table) {
                 "Whether the host scales each solid's discriminant until its root fills the extractor, or leaves it in "
                 "units of depth.",
                 "picture of quadrics; which solids are refused"});
+  table.choice("quadric_processor.on_refusal", on_refusal, {"error", "drop"},
+               {"", "What a solid that the words cannot show does: it ends the run, or it is left out and counted.",
+                "which scenes are refused"});
   table.choice("quadric_processor.alignment", alignment, {"early_start", "delay"},
                {"", "How fragments of triangles and quadrics meet: quadrics start earlier, or triangles wait.",
                 "latency, memories[], budgets[] quadric_line_start"});

@@ -21,6 +21,9 @@ enum class Scaling { object, fixed };
 // triangles wait in registers.
 enum class Alignment { early_start, delay };
 
+// What happens to a solid that the words cannot show.
+enum class OnRefusal { error, drop };
+
 struct QuadricParameters {
   std::int64_t per_unit = 0;        // quadric processors a computation unit
   std::int64_t word_bits = 48;      // of an EP2: the discriminant
@@ -34,6 +37,7 @@ struct QuadricParameters {
   std::int64_t multiplier_bits = 24;  // of the constant that the root is multiplied with, for the normal
   Scaling scaling = Scaling::object;
   Alignment alignment = Alignment::early_start;
+  OnRefusal on_refusal = OnRefusal::error;
   std::int64_t output_cycles = 2;  // register stages behind the root: multiplication, interval logic
 
   object_processor::RootFormat root() const;
