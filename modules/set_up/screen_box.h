@@ -33,6 +33,14 @@ PixelBox common_box(const PixelBox& a, const PixelBox& b) {
   return {std::max(a.left, b.left), std::min(a.right, b.right), std::max(a.top, b.top), std::min(a.bottom, b.bottom)};
 }
 
+// By a pixel on each side, within the screen; an empty one stays empty.
+template <class T>
+PixelBox grown(const PixelBox& box, const PixelBox& screen) {
+  if (box.empty()) return box;
+  geometry::charge_integer<T>(4, 0);
+  return common_box<T>({box.left - 1, box.right + 1, box.top - 1, box.bottom + 1}, screen);
+}
+
 template <class T>
 T magnitude(const T& value) {
   return value < T(0.0) ? -value : value;

@@ -1,235 +1,228 @@
-// Do the words show the solid? Every pixel's words are decoded as the machine does it, and what they show lies between
-// the solid grown and the solid shrunk by the bounds of rounding.
+// Do the words show the solid, in every format, and is what they cannot show refused with the width that would do?
 #include "modules/set_up/quadric_set_up.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-#include <map>
-#include <optional>
-#include <string>
+#include <iostream>
+#include <numbers>
 
-#include "modules/quadric_processor/quadric_pixel.h"
 #include "src/geometry/counted.h"
-#include "tests/modules/set_up/solids.h"
+#include "tests/modules/set_up/solid_comparison.h"
 
 namespace rastertlm::set_up {
 namespace {
 
 using quadric_processor::CapKeeps;
-using quadric_processor::PixelWords;
-using quadric_processor::QuadricPixel;
-using quadric_processor::QuadricPixelLogic;
-using quadric_processor::QuadricWords;
 using quadric_processor::RayPart;
 using quadric_processor::RootReading;
 using quadric_processor::Scaling;
-using quadric_processor::Surface;
 
+// Uniform, whatever RapidCheck's size is.
 template <class T>
 T drawn(T from, T to) {
   return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange<T>(from, to));
 }
 
-// The solid's forms in depth words, and how far rounding may move them.
-class ExactSolid {
- public:
-  ExactSolid(const PlacedSolid& solid, const View& view, const QuadricFormat& format, const QuadricSetUp& result)
-      : form_(geometry::screen_quadric<double>(solid.quadric, view.screen_to_eye)),
-        format_(format),
-        result_(result),
-        near_(static_cast<double>(near_depth(format.words))),
-        range_(static_cast<double>(far_depth(format.words) - near_depth(format.words))) {
-    for (const glm::dvec4& plane : solid.planes)
-      planes_.push_back(geometry::screen_plane<double>(plane, view.screen_to_eye));
-  }
+QuadricFormat default_format(const geometry::Viewport& viewport) {
+  return {{}, {24, viewport.columns, viewport.lines, EdgeForm::snapped}};
+}
 
-  double pixels(double x, double y) const {
-    return std::abs(x - static_cast<double>(result_.anchor.x)) + std::abs(y - static_cast<double>(result_.anchor.y));
-  }
-  // Square depth words a unit of the discriminant's last place.
-  double last_place() const {
-    return std::ldexp(
-        1.0, 2 * (format_.depth_fraction_bits() - result_.scale) - static_cast<int>(format_.parameters.fraction_bits));
-  }
-  double middle(double x, double y) const { return near_ + range_ * form_.middle.at(x, y); }
-  double discriminant(double x, double y) const { return range_ * range_ * form_.discriminant.at(x, y); }
-  double discriminant_error(double x, double y) const {
-    const double l = range_ * form_.middle.at(x, y);
-    return second_order_error(pixels(x, y)) * last_place() +
-           0x1p-46 * (l * l + range_ * range_ + std::abs(discriminant(x, y)));
-  }
-  double plane_error(double x, double y) const { return linear_error(pixels(x, y)) + 0x1p-20; }
-  // Of a root that is read, beside its discriminant's: a place, or half of one, and what a shift drops.
-  double root_error() const {
-    const double place = std::ldexp(1.0, result_.words.root_shift);
-    return place + (result_.words.root_shift < 0 ? 1.0 : 0.0);
-  }
-  // s within [first, second].
-  std::pair<double, double> root(double x, double y) const {
-    const double d = discriminant(x, y), off = discriminant_error(x, y);
-    return {std::max(0.0, std::sqrt(std::max(0.0, d - off)) - root_error()),
-            std::sqrt(std::max(0.0, d + off)) + root_error()};
-  }
+QuadricSetUp set_up(const PlacedSolid& solid, const View& view, const QuadricFormat& format) {
+  return set_up_quadric<double>(solid.quadric, solid.planes, 7, view.screen_to_eye, format);
+}
 
-  // The first depth inside, of the solid grown (sign 1) or shrunk (-1) by all bounds.
-  std::optional<double> first(double x, double y, double sign) const {
-    using Keeps = geometry::ScreenPlane<double>::Keeps;
-    const double off = plane_error(x, y);
-    double from = near_, to = near_ + range_;
-    for (const auto& plane : planes_) {
-      const double at = plane.depth.at(x, y);
-      const double slope = std::hypot(plane.depth.x, plane.depth.y);
-      if (plane.keeps == Keeps::side) {
-        if (at > sign * slope / 64) return std::nullopt;
-        continue;
-      }
-      // What is steeper is one along the rays, 1/64 pixel from where it is at most.
-      const double move = std::max(off, slope < 64 ? 0.0 : slope * range_ / 64);
-      if (plane.keeps == Keeps::beyond) from = std::max(from, near_ + range_ * at - sign * move);
-      if (plane.keeps == Keeps::before) to = std::min(to, near_ + range_ * at + sign * move);
-    }
-    const double d = discriminant(x, y) + (form_.a > 0 ? sign : -sign) * discriminant_error(x, y);
-    const auto [least, most] = root(x, y);
-    const double l = middle(x, y);
-    if (form_.a > 0) {
-      const double s = sign > 0 ? most : least;
-      from = std::max(from, l - s - sign * off);
-      to = std::min(to, l + s + sign * off);
-      return d < 0 || from > to ? std::nullopt : std::optional(from);
-    }
-    const double s = sign > 0 ? least : most;
-    if (from <= (d < 0 ? to : std::min(to, l - s + sign * off))) return from;
-    from = std::max(from, l + s - sign * off);
-    return d < 0 || from > to ? std::nullopt : std::optional(from);
-  }
+bool seen_anywhere(const PlacedSolid& solid, const View& view) {
+  for (std::size_t y = 0; y < view.viewport.lines; ++y)
+    for (std::size_t x = 0; x < view.viewport.columns; ++x)
+      if (geometry::first_hit(solid.quadric, solid.planes,
+                              geometry::pixel_ray(view.screen_to_eye, static_cast<double>(x), static_cast<double>(y))))
+        return true;
+  return false;
+}
 
-  glm::dvec3 normal(Surface surface, double x, double y) const {
-    using geometry::QuadricHit;
-    return glm::normalize(quadric_normal(
-        form_, surface == Surface::far_root ? QuadricHit::Surface::far_root : QuadricHit::Surface::near_root, x, y));
-  }
-  double root_of(double x, double y) const { return std::sqrt(std::max(0.0, discriminant(x, y))); }
-
- private:
-  geometry::ScreenQuadric<double> form_;
-  std::vector<geometry::ScreenPlane<double>> planes_;
-  const QuadricFormat& format_;
-  const QuadricSetUp& result_;
-  double near_, range_;
+struct Case {
+  const SolidShape* shape;
+  View view;
+  PlacedSolid solid;
 };
-
-struct Seen {
-  int covered = 0, uncertain = 0, outside = 0, normals = 0;
-  double depth = 0, angle = 0;  // largest errors, in depth words and radians
-};
-
-glm::dvec3 vector_of(const std::array<std::uint32_t, 3>& words, int bits) {
-  glm::dvec3 vector;
-  for (int i = 0; i < 3; ++i)
-    vector[i] = static_cast<double>(sign_extend(words[static_cast<std::size_t>(i)], static_cast<unsigned>(bits)));
-  return vector;
-}
-
-// The angle between the normal shown and the exact one, and its bound, in the words' unit: E and the product to words,
-// k to half a place of it for each of the root's, and k times what the root is off.
-void check_normal(const ExactSolid& exact, const QuadricFormat& format, const QuadricWords& words,
-                  const QuadricPixel& pixel, double x, double y, Seen& seen) {
-  const glm::dvec3 shown = vector_of(pixel.normal, format.words.word_bits);
-  const auto fraction =
-      static_cast<int>(format.parameters.multiplier_bits) - static_cast<int>(quadric_processor::kMultiplierInteger);
-  glm::dvec3 k;
-  for (int i = 0; i < 3; ++i)
-    k[i] = std::abs(std::ldexp(words.normal_of_root[static_cast<std::size_t>(i)], -fraction)) +
-           std::ldexp(1.0, -fraction - 1);
-  const auto [least, most] = exact.root(x, y);
-  const double s = exact.root_of(x, y);
-  const double places = std::ldexp(std::max(most - s, s - least), -words.root_shift);
-  const double rounding =
-      linear_error(exact.pixels(x, y)) + std::ldexp(std::ldexp(most, -words.root_shift), -fraction - 1) + 1;
-  const double off = glm::length(k) * places + std::sqrt(3.0) * rounding;
-  const double length = glm::length(shown);
-  const double apart =
-      std::acos(std::clamp(glm::dot(shown / std::max(length, 1.0), exact.normal(pixel.surface, x, y)), -1.0, 1.0));
-  if (off >= length) return;
-  RC_ASSERT(apart <= std::asin(off / length) + 1e-7);
-  ++seen.normals;
-  seen.angle = std::max(seen.angle, apart);
-}
-
-Seen compare(const PlacedSolid& solid, const View& view, const QuadricFormat& format, const QuadricSetUp& result,
-             std::size_t step) {
-  const ExactSolid exact(solid, view, format, result);
-  const QuadricPixelLogic logic(format.parameters, static_cast<unsigned>(format.words.word_bits),
-                                {near_depth(format.words), far_depth(format.words)});
-  Seen seen;
-  for (std::size_t line = 0; line < format.words.lines; line += step)
-    for (std::size_t column = 0; column < format.words.columns; column += step) {
-      const auto x = static_cast<double>(column), y = static_cast<double>(line);
-      const PixelWords words = quadric_processor::pixel_words(result.words, static_cast<std::uint32_t>(column),
-                                                              static_cast<std::uint32_t>(line), format.parameters,
-                                                              static_cast<unsigned>(format.words.word_bits));
-      const QuadricPixel pixel = logic(result.words, words);
-      const auto grown = exact.first(x, y, 1.0), shrunk = exact.first(x, y, -1.0);
-      if (grown.has_value() != shrunk.has_value()) ++seen.uncertain;
-      if (shrunk) {
-        RC_ASSERT(pixel.covered);
-      }
-      if (!pixel.covered) continue;
-      RC_ASSERT(grown.has_value());
-      ++seen.covered;
-      RC_ASSERT(static_cast<double>(pixel.depth) >= *grown - 1);
-      if (shrunk) {
-        RC_ASSERT(static_cast<double>(pixel.depth) <= *shrunk + 1);
-      }
-      if (const auto real = exact.first(x, y, 0.0))
-        seen.depth = std::max(seen.depth, std::abs(static_cast<double>(pixel.depth) - *real));
-      if (pixel.surface == Surface::near_root || pixel.surface == Surface::far_root)
-        check_normal(exact, format, result.words, pixel, x, y, seen);
-    }
-  return seen;
-}
-
-QuadricFormat default_format(std::size_t columns, std::size_t lines) {
-  return {{}, {24, columns, lines, EdgeForm::snapped}};
-}
-
-RC_GTEST_PROP(QuadricSetUpTest, WordsShowTheSolid, ()) {
+Case any_case(bool large) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
-  const auto& shape = kSolidShapes[drawn<std::size_t>(0, kSolidShapes.size())];
-  const bool large = drawn(0, 4) == 0;
+  const SolidShape& shape = kSolidShapes[drawn<std::size_t>(0, kSolidShapes.size())];
   const geometry::Viewport viewport = large ? geometry::Viewport{512, 384} : geometry::Viewport{64, 48};
-  const View view = view_of(drawn(0, 2) == 0, viewport);
-  const PlacedSolid solid = placed_solid(shape, random_place(random));
-  QuadricFormat format = default_format(viewport.columns, viewport.lines);
+  return {&shape, view_of(drawn(0, 2) == 0, viewport), placed_solid(shape, random_place(random))};
+}
+
+RC_GTEST_PROP(QuadricSetUp, WordsShowTheSolid, ()) {
+  const bool large = drawn(0, 4) == 0;
+  const Case c = any_case(large);
+  QuadricFormat format = default_format(c.view.viewport);
   format.parameters.root_reading = *rc::gen::element(RootReading::floor, RootReading::half_unit);
-  const QuadricSetUp result = set_up_quadric<double>(solid.quadric, solid.planes, 7, view.screen_to_eye, format);
-  RC_LOG() << shape.name << " " << result.problem.key << " " << result.problem.message << "\n";
-  RC_CLASSIFY(result.outcome == QuadricOutcome::refused, "refused");
+  const QuadricSetUp result = set_up(c.solid, c.view, format);
+  RC_LOG() << c.shape->name << " " << result.problem.key << " " << result.problem.message << "\n";
   RC_CLASSIFY(result.outcome == QuadricOutcome::outside, "outside");
-  RC_CLASSIFY(result.outcome == QuadricOutcome::drawn, "drawn");
   RC_CLASSIFY(result.outcome == QuadricOutcome::drawn && result.words.part == RayPart::outside, "a < 0");
   if (result.outcome == QuadricOutcome::refused) {
     // Rays that are nearly along the surface's asymptotes need wider words; nothing else here does.
-    const auto form = geometry::screen_quadric<double>(solid.quadric, view.screen_to_eye);
+    const auto form = geometry::screen_quadric<double>(c.solid.quadric, c.view.screen_to_eye);
     RC_ASSERT(std::abs(form.middle.at(0, 0)) + std::sqrt(std::abs(form.discriminant.at(0, 0))) > 20);
     RC_ASSERT(result.problem.width > 0);
     return;
   }
   if (result.outcome == QuadricOutcome::outside) {
-    std::vector<geometry::ScreenPlane<double>> planes;
-    for (const glm::dvec4& plane : solid.planes)
-      planes.push_back(geometry::screen_plane<double>(plane, view.screen_to_eye));
-    const auto form = geometry::screen_quadric<double>(solid.quadric, view.screen_to_eye);
-    for (std::size_t y = 0; y < viewport.lines; ++y)
-      for (std::size_t x = 0; x < viewport.columns; ++x)
-        RC_ASSERT(!geometry::first_hit(form, planes, static_cast<double>(x), static_cast<double>(y)));
+    RC_ASSERT(!seen_anywhere(c.solid, c.view));
     return;
   }
   RC_ASSERT(result.words.material == 7U);
-  const Seen seen = compare(solid, view, format, result, large ? 5 : 1);
+  const Seen seen = compare(c.solid, c.view, format, result, large ? 5 : 1);
+  RC_ASSERT(seen.wrong == "");
   RC_CLASSIFY(seen.covered == 0, "drawn, nothing seen");
+}
+
+// Whatever the widths, what is drawn is right within its bounds; what is refused is drawn, or refused for another
+// word, in the width that is named.
+RC_GTEST_PROP(QuadricSetUp, TheWidthsThatAreNamedDo, ()) {
+  const Case c = any_case(false);
+  QuadricFormat format = default_format(c.view.viewport);
+  format.words.word_bits = drawn(18, 29);
+  quadric_processor::QuadricParameters& p = format.parameters;
+  p.word_bits = drawn(22, 56);
+  p.fraction_bits = drawn(2, 16);
+  p.root_integer_bits = drawn(4, 13);
+  p.root_guard_bits = drawn(1, 9);
+  p.plane_bits = drawn<std::int64_t>(format.words.word_bits + 1, 46);
+  p.multiplier_bits = drawn(14, 32);
+  p.scaling = *rc::gen::element(Scaling::object, Scaling::fixed);
+  p.root_reading = *rc::gen::element(RootReading::floor, RootReading::half_unit);
+  QuadricSetUp result = set_up(c.solid, c.view, format);
+  RC_CLASSIFY(result.outcome == QuadricOutcome::refused, "refused at first", result.problem.key);
+  for (int tries = 0; result.outcome == QuadricOutcome::refused; ++tries) {
+    const QuadricProblem problem = result.problem;
+    RC_LOG() << problem.key << " " << problem.message << "\n";
+    RC_ASSERT(tries < 4);
+    std::int64_t* const width = problem.key == "quadric_processor.word_bits"           ? &p.word_bits
+                                : problem.key == "quadric_processor.plane_bits"        ? &p.plane_bits
+                                : problem.key == "quadric_processor.root_integer_bits" ? &p.root_integer_bits
+                                                                                       : nullptr;
+    RC_ASSERT(width != nullptr);
+    RC_ASSERT(problem.width > *width);
+    if (problem.width > 58) return;  // beyond the machine's, and this test's integers
+    *width = problem.width;
+    result = set_up(c.solid, c.view, format);
+    RC_ASSERT(result.problem.key != problem.key);
+  }
+  if (result.outcome == QuadricOutcome::drawn && p.root_integer_bits + p.root_guard_bits <= 24) {
+    RC_ASSERT(compare(c.solid, c.view, format, result, 1).wrong == "");
+  }
+}
+
+RC_GTEST_PROP(QuadricSetUp, CountedNumbersMakeTheSameWords, ()) {
+  const Case c = any_case(false);
+  const QuadricFormat format = default_format(c.view.viewport);
+  const QuadricSetUp plain = set_up(c.solid, c.view, format);
+  const geometry::OperationCounts start = geometry::operation_counts;
+  const QuadricSetUp counted =
+      set_up_quadric<geometry::Counted<double>>(c.solid.quadric, c.solid.planes, 7, c.view.screen_to_eye, format);
+  const geometry::OperationCounts counts = geometry::operation_counts - start;
+  RC_ASSERT(plain.outcome == counted.outcome);
+  RC_ASSERT(plain.words == counted.words);
+  RC_ASSERT(plain.problem.message == counted.problem.message);
+  RC_ASSERT(counts.flops() > 245U);
+  RC_ASSERT(plain.outcome != QuadricOutcome::drawn || (counts.convert >= 15 && counts.integer_multiply >= 11));
+}
+
+// A unit of depth is a pixel: the box of the view is as deep as its words.
+View parallel_view(const QuadricFormat& format) {
+  const auto columns = static_cast<double>(format.words.columns), lines = static_cast<double>(format.words.lines);
+  const double deep = std::ldexp(static_cast<double>(far_depth(format.words) - near_depth(format.words)),
+                                 -format.depth_fraction_bits());
+  const geometry::Viewport viewport{format.words.columns, format.words.lines};
+  const glm::dmat4 clip = glm::orthoRH_ZO(-0.5, columns - 0.5, -0.5, lines - 0.5, 0.0, deep);
+  return {viewport, glm::inverse(geometry::eye_to_screen(clip, viewport))};
+}
+PlacedSolid ball(const glm::dvec3& at, const glm::dvec3& radii) {
+  return placed_solid(kSolidShapes[0], glm::scale(glm::translate(glm::dmat4(1.0), at), radii));
+}
+
+QuadricFormat narrow_format() {
+  QuadricFormat format = default_format({512, 512});
+  format.parameters.word_bits = 24;
+  format.parameters.fraction_bits = 4;
+  format.parameters.root_integer_bits = 9;
+  format.parameters.root_guard_bits = 1;
+  format.parameters.scaling = Scaling::fixed;
+  return format;
+}
+
+// Spheres need but few bits in parallel projection: only the constant is rounded.
+TEST(QuadricSetUp, ASphereOfTwentyFourBits) {
+  const QuadricFormat format = narrow_format();
+  const View view = parallel_view(format);
+  std::mt19937_64 random(1);
+  double worst = 0;
+  int covered = 0;
+  for (int round = 0; round < 16; ++round) {
+    const auto near_middle = [&] { return 256 + static_cast<double>(random() % 1024) / 32 - 16; };
+    const double r = 240 - static_cast<double>(random() % 16) / 16;
+    const PlacedSolid solid = ball({near_middle(), near_middle(), -256}, glm::dvec3(r));
+    const QuadricSetUp result = set_up(solid, view, format);
+    ASSERT_EQ(result.outcome, QuadricOutcome::drawn) << result.problem.message;
+    const Seen seen = compare(solid, view, format, result, 3);
+    EXPECT_EQ(seen.wrong, "");
+    worst = std::max(worst, seen.depth / 32768);
+    covered += seen.covered;
+    // No pixel further from the outline than 2^-5 / (2 R) is on the wrong side.
+    const geometry::ScreenQuadric<double> form = geometry::screen_quadric<double>(solid.quadric, view.screen_to_eye);
+    for (std::uint32_t y = 0; y < 512; ++y)
+      for (std::uint32_t x = 0; x < 512; ++x) {
+        const auto word = quadric_processor::pixel_words(result.words, x, y, format.parameters, 24).discriminant;
+        const double d =
+            form.discriminant.at(x, y) * std::pow(far_depth(format.words) - near_depth(format.words), 2) * 0x1p-30;
+        if ((word >> 23 == 0) != (d >= 0)) {
+          EXPECT_LE(std::abs(std::sqrt(r * r - d) - r), 0x1p-5 / (2 * r) * 1.0001);
+        }
+      }
+  }
+  std::cout << "sphere, 24 bits: " << worst << " unit of depth at most (bound 0.427), " << covered << " pixels\n";
+  EXPECT_LE(worst, 0.427);
+  EXPECT_GT(covered, 10000);
+}
+
+TEST(QuadricSetUp, AnEllipsoidNeedsMoreBitsThanThat) {
+  double narrow = 0, wide = 0, angle = 0;
+  int refused = 0;
+  std::mt19937_64 random(2);
+  for (int round = 0; round < 24; ++round) {
+    const auto uniform = [&](double low, double high) {
+      return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+    };
+    glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(uniform(200, 312), uniform(200, 312), -256));
+    place = glm::rotate(place, uniform(0, 6), glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), 0.3)));
+    place = glm::scale(place, glm::dvec3(uniform(51, 154), uniform(51, 154), uniform(51, 154)));
+    const PlacedSolid solid = placed_solid(kSolidShapes[0], place);
+    QuadricFormat format = narrow_format();
+    const View view = parallel_view(format);
+    const QuadricSetUp result = set_up(solid, view, format);
+    if (result.outcome == QuadricOutcome::refused) {
+      ++refused;
+    } else {
+      const Seen seen = compare(solid, view, format, result, 3);
+      EXPECT_EQ(seen.wrong, "");
+      narrow = std::max(narrow, seen.depth / 32768);
+    }
+    format.parameters = {};
+    const QuadricSetUp good = set_up(solid, view, format);
+    ASSERT_EQ(good.outcome, QuadricOutcome::drawn) << good.problem.message;
+    const Seen seen = compare(solid, view, format, good, 3);
+    EXPECT_EQ(seen.wrong, "");
+    wide = std::max(wide, seen.depth / 32768);
+    angle = std::max(angle, seen.angle);
+  }
+  std::cout << "ellipsoids: 24 bits " << narrow << " units of depth (" << refused << " refused), by default " << wide
+            << ", normals to " << angle * 180 / std::numbers::pi << " degrees\n";
+  EXPECT_TRUE(narrow > 5 || refused == 24);
+  EXPECT_LT(wide, 0.3);
 }
 
 }  // namespace
