@@ -75,7 +75,7 @@ class QuadricFitter {
   int scale_of_root();
   int scale_beyond_depths();
   void fit_discriminant();
-  double root_in(const PixelBox& box) const;
+  double largest_root_of(const T& discriminant, const PixelBox& box) const;
   void fit_middle();
   void fit_normals();
   void fit_caps();
@@ -122,10 +122,12 @@ class QuadricFitter {
   SecondOrderForm<T> discriminant_;     // in the words' last place, before the scale
   std::optional<Ellipse<T>> outline_;   // where it is one
   Range<T> on_screen_{T(0.0), T(0.0)};  // of it
-  PixelBox positive_;                   // where it can be 0 or more, or the whole screen
-  PixelBox bounds_;                     // of what planes leave of the solid, or the whole screen
-  PixelBox seen_;                       // both
-  std::int64_t plane_bits_ = 0;         // that depth and caps need
+  T positive_most_{};                   // of it where it is positive, and where the solid can be seen
+  T seen_most_{};
+  PixelBox positive_;            // where it can be 0 or more, or the whole screen
+  PixelBox bounds_;              // of what planes leave of the solid, or the whole screen
+  PixelBox seen_;                // both
+  std::int64_t plane_bits_ = 0;  // that depth and caps need
   const char* widest_plane_ = "";
   QuadricSetUp result_;
 };

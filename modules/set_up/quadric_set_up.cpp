@@ -145,10 +145,13 @@ bool QuadricFitter<T>::find_region() {
     }
   seen_ = common_box<T>(positive_, bounds_);
   if (seen_.empty()) return false;
+  positive_most_ = on_screen_.most;
+  if (outline_)
+    positive_most_ = outline_->middle_in(positive_) ? outline_->at_middle : range_in(discriminant_, positive_).most;
+  seen_most_ = seen_ == positive_ ? positive_most_ : range_in(discriminant_, seen_).most;
   if (between) {
     const double unit = std::ldexp(depth_range_, -depth_fraction_);
-    const T most = range_in(discriminant_, seen_).most *
-                   T(std::ldexp(1.0, -static_cast<int>(parameters_.fraction_bits)) / (unit * unit));
+    const T most = seen_most_ * T(std::ldexp(1.0, -static_cast<int>(parameters_.fraction_bits)) / (unit * unit));
     if (most < T(0.0)) return false;
     const T root = geometry::square_root(most);
     const Range<T> middle = range_in(form_.middle, seen_);
@@ -194,7 +197,7 @@ void QuadricFitter<T>::choose_scale() {
 
 template <class T>
 int QuadricFitter<T>::scale_of_root() {
-  const double most = geometry::plain(range_in(discriminant_, positive_).most);
+  const double most = geometry::plain(positive_most_);
   const auto largest = static_cast<double>(root_.largest_word());
   geometry::charge_integer<T>(4, 0);
   if (most <= 0) return kMostScale;

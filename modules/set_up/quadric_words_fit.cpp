@@ -23,17 +23,17 @@ void QuadricFitter<T>::fit_discriminant() {
                                                      static_cast<unsigned>(parameters_.word_bits));
   if (result_.words.part == RayPart::all) return;
   result_.words.root_shift = depth_fraction_ - read_fraction() - result_.scale;
-  // Rounding may add to where the discriminant is positive.
+  // Rounding may add to where the discriminant is positive; it is largest where it was.
   const double error = discriminant_error(screen_);
   if (outline_) positive_ = outline_->box(T(error / factor), screen_);
   seen_ = common_box<T>(positive_, bounds_);
 }
 
-// The largest root that can be on a box, in depth words.
+// The root of the largest discriminant on a box, with what rounding may add, in depth words.
 template <class T>
-double QuadricFitter<T>::root_in(const PixelBox& box) const {
-  const double most = std::max(0.0, std::ldexp(geometry::plain(range_in(discriminant_, box).most), 2 * result_.scale)) +
-                      discriminant_error(box);
+double QuadricFitter<T>::largest_root_of(const T& discriminant, const PixelBox& box) const {
+  const double most =
+      std::max(0.0, std::ldexp(geometry::plain(discriminant), 2 * result_.scale)) + discriminant_error(box);
   geometry::charge_integer<T>(6, 0);
   const double root =
       geometry::plain(geometry::square_root(T(std::ldexp(most, -static_cast<int>(parameters_.fraction_bits)))));
@@ -43,7 +43,8 @@ double QuadricFitter<T>::root_in(const PixelBox& box) const {
 template <class T>
 void QuadricFitter<T>::fit_middle() {
   const LinearForm<T> form = in_depth_words(form_.middle);
-  const double size = geometry::plain(range_in(form, positive_).largest_magnitude()) + root_in(positive_) +
+  const double size = geometry::plain(range_in(form, positive_).largest_magnitude()) +
+                      largest_root_of(positive_most_, positive_) +
                       linear_error(farthest<T>(result_.anchor, positive_)) + 1;
   geometry::charge_integer<T>(3, 0);
   need_plane_bits(signed_bits(size), "depth");
@@ -54,7 +55,7 @@ void QuadricFitter<T>::fit_middle() {
 // All by one factor: so large that no component leaves its word where the solid is seen, nor a constant the multiplier.
 template <class T>
 void QuadricFitter<T>::fit_normals() {
-  const double root = root_in(seen_);  // in depth words
+  const double root = largest_root_of(seen_most_, seen_);  // in depth words
   const double last_place = std::ldexp(1.0 / depth_range_, result_.words.root_shift);
   const auto fraction = static_cast<int>(parameters_.multiplier_bits) - static_cast<int>(kMultiplierInteger);
   T size(0.0), largest_k(0.0);

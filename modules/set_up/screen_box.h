@@ -63,13 +63,10 @@ struct Range {
 
 template <class T>
 Range<T> range_in(const geometry::LinearForm<T>& form, const PixelBox& box) {
-  const auto left = static_cast<double>(box.left), right = static_cast<double>(box.right);
-  const auto top = static_cast<double>(box.top), bottom = static_cast<double>(box.bottom);
-  Range<T> range{form.at(left, top), form.at(left, top)};
-  range.include(form.at(right, top));
-  range.include(form.at(left, bottom));
-  range.include(form.at(right, bottom));
-  return range;
+  const T x[2] = {form.x * T(static_cast<double>(box.left)), form.x * T(static_cast<double>(box.right))};
+  const T y[2] = {form.y * T(static_cast<double>(box.top)), form.y * T(static_cast<double>(box.bottom))};
+  const bool falls_x = x[1] < x[0], falls_y = y[1] < y[0];
+  return {x[falls_x ? 1 : 0] + y[falls_y ? 1 : 0] + form.one, x[falls_x ? 0 : 1] + y[falls_y ? 0 : 1] + form.one};
 }
 
 // Of all points of the box, not of its pixels alone: corners, where a side has an extreme, and the middle of an
@@ -78,7 +75,8 @@ template <class T>
 Range<T> range_in(const geometry::SecondOrderForm<T>& form, const PixelBox& box) {
   const auto left = static_cast<double>(box.left), right = static_cast<double>(box.right);
   const auto top = static_cast<double>(box.top), bottom = static_cast<double>(box.bottom);
-  Range<T> range{form.at(left, top), form.at(left, top)};
+  const T at_first = form.at(left, top);
+  Range<T> range{at_first, at_first};
   range.include(form.at(right, top));
   range.include(form.at(left, bottom));
   range.include(form.at(right, bottom));
@@ -113,6 +111,12 @@ struct Ellipse {
   T at_middle;     // the form's value there
   T across, down;  // squares of half its width and height, for each unit of the value
 
+  bool middle_in(const PixelBox& box) const {
+    const double column = geometry::plain(x), line = geometry::plain(y);
+    geometry::charge_integer<T>(4, 0);
+    return column >= static_cast<double>(box.left) && column <= static_cast<double>(box.right) &&
+           line >= static_cast<double>(box.top) && line <= static_cast<double>(box.bottom);
+  }
   // The pixels where form + `more` may be 0 or positive.
   PixelBox box(const T& more, const PixelBox& screen) const {
     const T value = at_middle + more;

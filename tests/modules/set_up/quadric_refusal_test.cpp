@@ -175,6 +175,25 @@ TEST(QuadricRefusal, PlanesAlongTheRaysKeepASide) {
     }
 }
 
+// 80 times from near to far a pixel: 30 bits do not hold its depth over the screen.
+TEST(QuadricRefusal, ASteepPlaneIsOneAlongTheRays) {
+  for (const double sign : {-1.0, 1.0}) {
+    PlacedSolid solid = placed_solid(kSolidShapes[kSphere], moved(0, 0, -6));
+    solid.planes = {{0.8, 0.6, sign * 0.125 / (19 * 80), sign * 0.125 * 10.5 / (19 * 80)}};
+    const View view = view_of(false, kScreen);
+    QuadricFormat format = default_format();
+    format.parameters.plane_bits = 30;
+    const QuadricSetUp result = set_up(solid, view, format);
+    ASSERT_EQ(result.outcome, QuadricOutcome::drawn) << result.problem.message;
+    EXPECT_EQ(result.words.caps[0].keeps, CapKeeps::side);
+    expect_same_coverage(solid, view, format, result);
+    format.parameters.plane_bits = 40;
+    const QuadricSetUp wide = set_up(solid, view, format);
+    EXPECT_EQ(wide.words.caps[0].keeps, sign > 0 ? CapKeeps::beyond : CapKeeps::before);
+    expect_same_coverage(solid, view, format, wide);
+  }
+}
+
 // Half a unit of each slope a pixel, over half a screen, is more than 1/64 pixel of a plane of 24 bits.
 TEST(QuadricRefusal, PlanesAlongTheRaysNeedBitsForThePixel) {
   const View view = view_of(false, {512, 512});

@@ -132,6 +132,25 @@ RC_GTEST_PROP(QuadricSetUp, CountedNumbersMakeTheSameWords, ()) {
   RC_ASSERT(plain.outcome != QuadricOutcome::drawn || (counts.convert >= 15 && counts.integer_multiply >= 11));
 }
 
+// What a host has to do for a solid, beside what a reader would count by hand.
+TEST(QuadricSetUp, Operations) {
+  for (const SolidShape& shape : kSolidShapes) {
+    const View view = view_of(true, {512, 512});
+    const PlacedSolid solid = placed_solid(
+        shape, glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0, -6)), 1.0, glm::dvec3(1, 0.2, 0)));
+    const geometry::OperationCounts start = geometry::operation_counts;
+    const QuadricSetUp result = set_up_quadric<geometry::Counted<double>>(
+        solid.quadric, solid.planes, 7, view.screen_to_eye, default_format(view.viewport));
+    const geometry::OperationCounts counts = geometry::operation_counts - start;
+    std::cout << shape.name << ": " << counts.flops() << " operations, " << counts.divide << " of them divisions, "
+              << counts.integer << " of integers\n";
+    ASSERT_EQ(result.outcome, QuadricOutcome::drawn) << result.problem.message;
+    // The forms alone are 64 + 48 + 40 + 30, about 35 and 18.
+    EXPECT_GT(counts.flops(), 235U);
+    EXPECT_LT(counts.flops(), 1500U);
+  }
+}
+
 // A unit of depth is a pixel: the box of the view is as deep as its words.
 View parallel_view(const QuadricFormat& format) {
   const auto columns = static_cast<double>(format.words.columns), lines = static_cast<double>(format.words.lines);
