@@ -244,5 +244,39 @@ TEST(QuadricSetUp, AnEllipsoidNeedsMoreBitsThanThat) {
   EXPECT_LT(wide, 0.3);
 }
 
+// All kinds on a table, as a camera sees them.
+TEST(QuadricSetUp, ATableOfSolidsByDefault) {
+  const geometry::Viewport viewport{512, 512};
+  const glm::dmat4 to_eye = glm::lookAtRH(glm::dvec3(0, -13, 6.2), glm::dvec3(0, 0, 0.75), glm::dvec3(0, 0, 1));
+  const glm::dmat4 clip = glm::perspectiveRH_ZO(30 * std::numbers::pi / 180, 1.0, 4.0, 30.0);
+  const View view{viewport, glm::inverse(geometry::eye_to_screen(clip, viewport))};
+  const QuadricFormat format = default_format(viewport);
+  const auto place = [&](const glm::dvec3& at, const glm::dvec3& size) {
+    return glm::scale(glm::translate(to_eye, at), size);
+  };
+  std::vector<std::pair<const SolidShape*, glm::dmat4>> solids{
+      {&kSolidShapes[3], place({0, 0, -0.15}, {4.4, 4.4, 0.15})},
+      {&kSolidShapes[6], place({0, 0, 1.2}, {0.7, 0.7, 1.2})},
+      {&kSolidShapes[0], place({0, 0, 3.05}, glm::dvec3(0.7))}};
+  for (std::size_t i = 0; i < kSolidShapes.size(); ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(kSolidShapes.size());
+    solids.emplace_back(&kSolidShapes[i], place({3 * std::cos(angle), 3 * std::sin(angle), 0.75}, glm::dvec3(0.6)));
+  }
+  for (const auto& [shape, to_place] : solids) {
+    const PlacedSolid solid = placed_solid(*shape, to_place);
+    const QuadricSetUp result = set_up(solid, view, format);
+    ASSERT_EQ(result.outcome, QuadricOutcome::drawn) << shape->name << " " << result.problem.message;
+    const Seen seen = compare(solid, view, format, result, 1);
+    std::cout << shape->name << ": scale " << result.scale << ", depth to " << seen.depth / 32768
+              << " units, normals to " << seen.angle * 180 / std::numbers::pi << " degrees, " << seen.uncertain
+              << " pixels of " << seen.covered << " within the bound of an outline\n";
+    EXPECT_EQ(seen.wrong, "");
+    EXPECT_GT(seen.covered, 200);
+    EXPECT_LT(seen.depth / 32768, 0.02) << shape->name;
+    EXPECT_LT(seen.angle, 0.3 * std::numbers::pi / 180) << shape->name;
+    EXPECT_LT(seen.uncertain, 1 + seen.covered / 500) << shape->name;
+  }
+}
+
 }  // namespace
 }  // namespace rastertlm::set_up
