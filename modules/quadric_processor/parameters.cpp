@@ -31,12 +31,12 @@ void QuadricParameters::declare(parameter::Table& table) {
   table.integer("quadric_processor.per_unit", per_unit, {0, 1 << 24},
                 {"processors", "Quadric processors on the bus of each computation unit.",
                  "budgets[] quadrics, memories[], processors"});
-  table.integer("quadric_processor.word_bits", word_bits, {16, 60},
+  table.integer("quadric_processor.word_bits", word_bits, {16, kMostWordBits},
                 {"bits", "Width of the second order processor: of the discriminant that the root is taken of.",
                  "picture of quadrics, memories[], budgets[] quadric_line_start"});
   table.integer("quadric_processor.fraction_bits", fraction_bits, {0, 32},
                 {"bits", "Fraction bits of the discriminant, in square units of depth.", "picture of quadrics"});
-  table.integer("quadric_processor.plane_bits", plane_bits, {24, 48},
+  table.integer("quadric_processor.plane_bits", plane_bits, {24, kMostPlaneBits},
                 {"bits", "Width of the first order processors of depth and caps, in units of the depth word.",
                  "memories[]; which solids are refused"});
   table.integer("quadric_processor.slice_bits", slice_bits, {1, 60},
@@ -46,7 +46,7 @@ void QuadricParameters::declare(parameter::Table& table) {
       "quadric_processor.caps", caps, {0, static_cast<std::int64_t>(kMostCaps)},
       {"planes", "Planes that may cut a solid, a first order processor each.", "memories[]; which solids are refused"});
   table.integer(
-      "quadric_processor.root_integer_bits", root_integer_bits, {1, 16},
+      "quadric_processor.root_integer_bits", root_integer_bits, {1, kMostRootIntegerBits},
       {"bits", "Integer bits of the square root, in units of depth.", "picture of quadrics, latency, memories[]"});
   table.integer("quadric_processor.root_guard_bits", root_guard_bits, {0, 16},
                 {"bits", "Further bits of the square root, of fraction: one stage of its pipeline each.",
@@ -87,7 +87,6 @@ void QuadricParameters::check(const object_processor::ObjectProcessorParameters&
   for (const std::int64_t width : {word_bits, plane_bits})
     if ((width + slice_bits - 1) / slice_bits > 32)
       refuse("slice_bits", fmt::format("{} bits in slices of {} are more than 32 slices", width, slice_bits));
-  constexpr std::int64_t kMostRootBits = 24;
   if (root_integer_bits + root_guard_bits > kMostRootBits)
     refuse("root_guard_bits",
            fmt::format("a root of {} bits is wider than {}", root_integer_bits + root_guard_bits, kMostRootBits));

@@ -24,6 +24,12 @@ enum class Alignment { early_start, delay };
 // What happens to a solid that the words cannot show.
 enum class OnRefusal { error, drop };
 
+// The widest words that a machine can have.
+inline constexpr std::int64_t kMostWordBits = 60;
+inline constexpr std::int64_t kMostPlaneBits = 48;
+inline constexpr std::int64_t kMostRootIntegerBits = 16;
+inline constexpr std::int64_t kMostRootBits = 24;  // with guard bits
+
 struct QuadricParameters {
   std::int64_t per_unit = 0;        // quadric processors a computation unit
   std::int64_t word_bits = 48;      // of an EP2: the discriminant

@@ -103,8 +103,10 @@ class QuadricFitter {
     result_.problem = {key[0] == 0 ? "" : fmt::format("quadric_processor.{}", key), std::move(message), width};
     throw Stop{};
   }
-  void refuse_word(const char* key, std::int64_t bits, std::int64_t needed, const char* what) {
-    refuse(key, needed, fmt::format("is {}; {} of a solid needs {} bits here", bits, what, needed));
+  void refuse_word(const char* key, std::int64_t bits, std::int64_t needed, std::int64_t most, const char* what) {
+    std::string message = fmt::format("is {}; {} of a solid needs {} bits here", bits, what, needed);
+    if (needed > most) message += fmt::format(", more than the {} that there can be", most);
+    refuse(key, needed > most ? 0 : needed, std::move(message));
   }
 
   const glm::dmat4& quadric_;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "modules/set_up/quadric_fitter.h"
 #include "src/geometry/counted.h"
@@ -35,9 +37,12 @@ QuadricSetUp QuadricFitter<T>::operator()(std::uint32_t material) {
     result_.words.material = material;
   };
   try {
-    if (static_cast<std::int64_t>(planes_.size()) > parameters_.caps)
-      refuse("caps", static_cast<std::int64_t>(planes_.size()),
-             fmt::format("is {}; a solid is cut by {} planes", parameters_.caps, planes_.size()));
+    if (const auto planes = static_cast<std::int64_t>(planes_.size()); planes > parameters_.caps) {
+      constexpr auto kMost = static_cast<std::int64_t>(quadric_processor::kMostCaps);
+      std::string message = fmt::format("is {}; a solid is cut by {} planes", parameters_.caps, planes);
+      if (planes > kMost) message += fmt::format(", more than the {} that there can be", kMost);
+      refuse("caps", planes > kMost ? 0 : planes, std::move(message));
+    }
     for (const glm::dvec4& plane : planes_) caps_.push_back(geometry::screen_plane<T>(plane, screen_to_eye_));
     look_at_rays();
     if (!find_region()) {
@@ -52,7 +57,7 @@ QuadricSetUp QuadricFitter<T>::operator()(std::uint32_t material) {
     }
     fit_caps();
     if (plane_bits_ > parameters_.plane_bits)
-      refuse_word("plane_bits", parameters_.plane_bits, plane_bits_, widest_plane_);
+      refuse_word("plane_bits", parameters_.plane_bits, plane_bits_, quadric_processor::kMostPlaneBits, widest_plane_);
   } catch (const Stop&) {
     result_.outcome = QuadricOutcome::refused;
     park();
@@ -171,7 +176,8 @@ void QuadricFitter<T>::choose_scale() {
   const double limit = largest_of(parameters_.word_bits) - error;
   geometry::charge_integer<T>(8, 0);
   if (limit < 1)
-    refuse_word("word_bits", parameters_.word_bits, signed_bits(2 * error), "the rounding of the discriminant");
+    refuse_word("word_bits", parameters_.word_bits, signed_bits(2 * error), quadric_processor::kMostWordBits,
+                "the rounding of the discriminant");
   const int by_word = largest_scale(size, limit);
   const bool fixed = parameters_.scaling == quadric_processor::Scaling::fixed;
   if (result_.words.part == RayPart::all) {
@@ -179,19 +185,23 @@ void QuadricFitter<T>::choose_scale() {
     return;
   }
   if (fixed && by_word < 0)
-    refuse_word("word_bits", parameters_.word_bits, signed_bits(size + error), "the discriminant");
+    refuse_word("word_bits", parameters_.word_bits, signed_bits(size + error), quadric_processor::kMostWordBits,
+                "the discriminant");
+  const std::int64_t most_root_bits =
+      std::min(quadric_processor::kMostRootIntegerBits, quadric_processor::kMostRootBits - parameters_.root_guard_bits);
   const int by_root = std::max(scale_of_root(), scale_beyond_depths());
   if (fixed && by_root < 0)
     refuse_word("root_integer_bits", parameters_.root_integer_bits, parameters_.root_integer_bits - by_root,
-                "the root");
+                most_root_bits, "the root");
   if (fixed) return;
   // A root's last place is at most a unit of depth.
   const int least = -read_fraction();
   if (by_word < least)
-    refuse_word("word_bits", parameters_.word_bits, parameters_.word_bits + 2 * (least - by_word), "the discriminant");
+    refuse_word("word_bits", parameters_.word_bits, parameters_.word_bits + 2 * (least - by_word),
+                quadric_processor::kMostWordBits, "the discriminant");
   if (by_root < least)
     refuse_word("root_integer_bits", parameters_.root_integer_bits, parameters_.root_integer_bits + least - by_root,
-                "the root");
+                most_root_bits, "the root");
   result_.scale = std::min({by_word, by_root, depth_fraction_ - read_fraction() + kMostShift});
 }
 

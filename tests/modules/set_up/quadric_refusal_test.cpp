@@ -64,6 +64,11 @@ TEST(QuadricRefusal, MorePlanesThanCaps) {
   const QuadricSetUp result = set_up(solid, view_of(true, kScreen), format);
   expect_refused(result, "quadric_processor.caps", AllOf(HasSubstr("is 2"), HasSubstr("3 planes")));
   EXPECT_EQ(result.problem.width, 3);
+  PlacedSolid five = solid;
+  five.planes.resize(5, {1, 0, 0, 0});
+  const QuadricSetUp none = set_up(five, view_of(true, kScreen), format);
+  expect_refused(none, "quadric_processor.caps", HasSubstr("more than the 4 that there can be"));
+  EXPECT_EQ(none.problem.width, 0);
   format.parameters.caps = 3;
   const QuadricSetUp more = set_up(solid, view_of(true, kScreen), format);
   EXPECT_EQ(more.outcome, QuadricOutcome::drawn);
@@ -110,7 +115,7 @@ TEST(QuadricRefusal, NoRootWhereRaysGoAlongAnAxisOrStartOnTheSurface) {
 
 // Nearly along it, roots are far from what is seen: wider words would do, and by and by none of ours.
 TEST(QuadricRefusal, NearlyAlongAnAxisNeedsWiderWords) {
-  bool refused = false;
+  bool refused = false, beyond = false;
   std::int64_t last = 0;
   for (double angle = 0.5; angle > 1e-5; angle /= 2) {
     const PlacedSolid solid =
@@ -125,10 +130,17 @@ TEST(QuadricRefusal, NearlyAlongAnAxisNeedsWiderWords) {
     }
     refused = true;
     EXPECT_EQ(result.outcome, QuadricOutcome::refused);
+    if (result.problem.width == 0) {
+      EXPECT_THAT(result.problem.message, HasSubstr("that there can be"));
+      beyond = true;
+      continue;
+    }
+    EXPECT_FALSE(beyond);
     EXPECT_GE(result.problem.width, last) << result.problem.message;
     last = result.problem.width;
   }
-  EXPECT_TRUE(refused);
+  EXPECT_GT(last, 10);
+  EXPECT_TRUE(beyond);
 }
 
 // Words of 24 bits, 4 of them fraction, without scaling.
