@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 #include <new>
+#include <utility>
+#include <vector>
 
 #include "src/base/digest.h"
 
@@ -16,7 +18,8 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{4} << 30;  // of addresses, not of memory
 constexpr std::size_t kPage = 4096;
 constexpr std::size_t kKeyDigits = 64;
-// Three levels and a depth in double, an object and a coverage count, region and edges.
+// Three levels and a depth in double, an object and a coverage count, region and edges: what is made of the levels is
+// made again.
 constexpr std::size_t kPixelBytes = 4 * sizeof(double) + 2 * sizeof(std::uint32_t) + 2;
 
 template <class T>
@@ -70,7 +73,9 @@ bool SharedPictures::read(const std::string& key, frame::ExactFrame& picture) co
     picture.columns = one.columns;
     picture.lines = one.lines;
     const std::size_t pixels = picture.pixels();
-    const unsigned char* at = get(one.pixels(), picture.rgb, 3 * pixels);
+    std::vector<double> levels;
+    const unsigned char* at = get(one.pixels(), levels, 3 * pixels);
+    picture.rgb.assign(std::move(levels));
     at = get(at, picture.depth, pixels);
     at = get(at, picture.object, pixels);
     at = get(at, picture.coverage, pixels);
@@ -90,7 +95,7 @@ void SharedPictures::write(const std::string& key, const frame::ExactFrame& pict
     std::memcpy(one.key, digest.data(), kKeyDigits);
     one.columns = picture.columns;
     one.lines = picture.lines;
-    unsigned char* at = put(one.pixels(), picture.rgb);
+    unsigned char* at = put(one.pixels(), picture.rgb.values());
     at = put(at, picture.depth);
     at = put(at, picture.object);
     at = put(at, picture.coverage);

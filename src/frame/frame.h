@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/frame/exact_levels.h"
+
 namespace rastertlm::frame {
 
 // Planes of columns x lines pixels, row by row from the top left.
@@ -45,11 +47,11 @@ inline constexpr std::size_t kRegions = 4;
 inline constexpr std::uint8_t kEdgeToTheRight = 1;
 inline constexpr std::uint8_t kEdgeBelow = 2;
 
-// The exact picture: display values in double, before rounding, 0..255.
+// The exact picture.
 struct ExactFrame {
   std::size_t columns = 0;
   std::size_t lines = 0;
-  std::vector<double> rgb;            // 3 a pixel, 0..255, clamped, not rounded
+  ExactLevels rgb;                    // 3 a pixel, 0..255, clamped, not rounded
   std::vector<std::uint32_t> object;  // 0 background, objects count from 1
   std::vector<double> depth;          // 0 near .. 1 far; 1 where nothing is seen
   std::vector<std::uint32_t> coverage;
@@ -60,7 +62,7 @@ struct ExactFrame {
   void resize(std::size_t new_columns, std::size_t new_lines) {
     columns = new_columns;
     lines = new_lines;
-    rgb.assign(3 * pixels(), 0.0);
+    rgb.resize(pixels());
     object.assign(pixels(), 0);
     depth.assign(pixels(), 1.0);
     coverage.assign(pixels(), 0);

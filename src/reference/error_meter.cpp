@@ -96,7 +96,7 @@ void take_as_seen(const std::vector<double>& flip, const std::vector<double>& ci
 void add_as_seen(const frame::Frame& shown, const frame::ExactFrame& exact, double pixels_per_degree,
                  ErrorFigures& figures) {
   std::vector<double> wanted(exact.rgb.size());
-  std::transform(exact.rgb.begin(), exact.rgb.end(), wanted.begin(), [](double x) { return std::floor(x + 0.5); });
+  for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = exact.rgb.rounded(i);
   const std::vector<double> levels(shown.rgb.begin(), shown.rgb.end());
   const PerceptualFigures seen = compare_as_seen(exact.columns, exact.lines, wanted, levels, pixels_per_degree);
   const auto part = [&](Region region, const std::vector<double>& values) {
@@ -114,9 +114,9 @@ void add_as_seen(const frame::Frame& shown, const frame::ExactFrame& exact, doub
 }  // namespace
 
 ErrorFigures ErrorMeter::measure(const frame::Frame& shown, const frame::ExactFrame& exact) {
-  const LevelComparison comparison = compare_frames(shown, exact, rounded_);
-  const RegionDifferences edges = edge_jumps(shown, exact, rounded_);
-  const RegionDifferences flicker = flicker_.add(shown, exact, rounded_);
+  const LevelComparison comparison = compare_frames(shown, exact);
+  const RegionDifferences edges = edge_jumps(shown, exact);
+  const RegionDifferences flicker = flicker_.add(shown, exact);
   std::array<Sums, kRegions> sums;
   for (std::size_t region = 0; region < kRegions; ++region)
     sums[region] = {comparison.regions[region], 0, edges[region], flicker[region]};

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "src/frame/frame.h"
 #include "src/reference/error_figures.h"
@@ -37,7 +36,6 @@ class ErrorMeter {
  private:
   MeterOptions options_;
   FlickerMeter flicker_;
-  std::vector<std::uint8_t> rounded_;  // the exact levels, where either picture covers
 };
 
 }  // namespace rastertlm::reference

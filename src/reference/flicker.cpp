@@ -16,8 +16,8 @@ void take(const std::array<KindSums, kPixelKinds>& sums, RegionDifferences& regi
   for (std::size_t region = 0; region < regions.size(); ++region) {
     const KindSums& from = sums[region | kCounted];
     DifferenceSums& into = regions[region];
+    into.places += from.pixels;
     for (std::size_t i = 0; i < kLevelGroup; ++i) {
-      into.places += from.pixels[i];
       into.squares += from.squares[i];
       into.largest = std::max(into.largest, static_cast<int>(std::sqrt(from.largest_square[i])));  // exact of squares
     }
@@ -26,15 +26,14 @@ void take(const std::array<KindSums, kPixelKinds>& sums, RegionDifferences& regi
 
 }  // namespace
 
-RegionDifferences FlickerMeter::add(const frame::Frame& shown, const frame::ExactFrame& exact,
-                                    const std::vector<std::uint8_t>& rounded) {
+RegionDifferences FlickerMeter::add(const frame::Frame& shown, const frame::ExactFrame& exact) {
   const std::size_t pixels = exact.pixels();
   const std::size_t groups = (pixels + kLevelGroup - 1) / kLevelGroup;
   const std::size_t padded = groups * kLevelGroup;
-  for (std::vector<std::uint8_t>* plane : {&now_.shown, &now_.exact}) plane->resize(3 * padded);
+  now_.shown.resize(3 * padded);
   for (std::vector<std::uint8_t>* plane : {&now_.compared, &kind_}) plane->resize(padded);
   std::copy(shown.rgb.begin(), shown.rgb.end(), now_.shown.begin());
-  std::copy(rounded.begin(), rounded.end(), now_.exact.begin());
+  now_.exact = exact.rgb.rounded_planes();
   for (std::size_t pixel = 0; pixel < pixels; ++pixel)
     now_.compared[pixel] =
         static_cast<std::uint8_t>(shown.object[pixel] != 0 && exact.object[pixel] != 0 ? kComparedBefore : 0);

@@ -16,16 +16,14 @@ inline constexpr int kStillLevels = 1;
 class FlickerMeter {
  public:
   // The change of the displayed minus the exact level since the frame before, at pixels that stand still, by this
-  // frame's region; nothing of the first frame. `rounded`: the exact levels, 3 a pixel, right where both pictures
-  // cover.
-  RegionDifferences add(const frame::Frame& shown, const frame::ExactFrame& exact,
-                        const std::vector<std::uint8_t>& rounded);
+  // frame's region; nothing of the first frame. Exact levels are rounded.
+  RegionDifferences add(const frame::Frame& shown, const frame::ExactFrame& exact);
 
  private:
   // Planes that end with a whole group of the kernels: what lies behind the picture is not compared.
   struct Seen {
     std::vector<std::uint8_t> shown;
-    std::vector<std::uint8_t> exact;     // rounded
+    std::vector<std::uint8_t> exact;     // rounded, as ExactLevels has them
     std::vector<std::uint8_t> compared;  // kComparedBefore where both pictures cover
   };
   Seen before_;

@@ -14,6 +14,7 @@ namespace {
 using frame::kRegions;
 
 constexpr std::uint32_t kCompared = kInShown | kInExact;
+static_assert(kLevelGroup == frame::ExactLevels::kGroup);
 static_assert(sizeof(frame::Region) == 1 && kRegions == kInShown, "a pixel's kind holds its region in two bits");
 
 // Takes what the kernels sum into `regions`.
@@ -28,54 +29,46 @@ class Sums {
   std::array<LevelSums, kRegions> regions;
 
  private:
-  static std::uint64_t sum(const std::uint32_t (&places)[kLevelGroup]) {
-    return std::accumulate(std::begin(places), std::end(places), std::uint64_t{0});
-  }
   static void take(std::uint32_t kind, const KindSums& from, LevelSums& sums) {
     if ((kind & kCompared) == 0) return;
-    const std::uint64_t pixels = sum(from.pixels);
+    const std::uint64_t squares = std::accumulate(std::begin(from.squares), std::end(from.squares), std::uint64_t{0});
     if ((kind & kCompared) != kCompared) {
-      ((kind & kInShown) != 0 ? sums.extra : sums.missing) += pixels;
-      sums.outline_squares += sum(from.squares);
+      ((kind & kInShown) != 0 ? sums.extra : sums.missing) += from.pixels;
+      sums.outline_squares += squares;
       return;
     }
-    const std::uint32_t largest_square =
-        *std::max_element(std::begin(from.largest_square), std::end(from.largest_square));
+    const float largest_square = *std::max_element(std::begin(from.largest_square), std::end(from.largest_square));
     const int largest = static_cast<int>(std::sqrt(largest_square));  // exact of squares
-    sums.compared += pixels;
-    sums.squares += sum(from.squares);
-    sums.over_one += sum(from.over_one);
-    sums.over_two += sum(from.over_two);
+    sums.compared += from.pixels;
+    sums.squares += squares;
+    sums.over_one += from.over_one;
+    sums.over_two += from.over_two;
     sums.largest = std::max(sums.largest, largest);
-    for (const double squares : from.unrounded_squares) sums.unrounded_squares += squares;
+    for (const double one : from.unrounded_squares) sums.unrounded_squares += one;
     if ((kind & kSameObject) != 0)
       sums.largest_same_object = std::max(sums.largest_same_object, largest);
     else
-      sums.wrong_object += pixels;
+      sums.wrong_object += from.pixels;
   }
 
   const LevelKernels& kernels_ = level_kernels(vector_variant());
 };
 
 // The pixels behind the last whole group: as a group whose others nothing covers.
-void add_rest(const frame::Frame& shown, const frame::ExactFrame& exact, std::vector<std::uint8_t>& rounded,
-              Sums& sums) {
+void add_rest(const frame::Frame& shown, const frame::ExactFrame& exact, Sums& sums) {
   const std::size_t count = exact.pixels() % kLevelGroup;
   if (count == 0) return;
   const std::size_t first = exact.pixels() - count;
   std::array<std::uint32_t, kLevelGroup> shown_object{}, exact_object{};
   std::array<std::uint8_t, kLevelGroup> region{};
-  std::array<std::uint8_t, 3 * kLevelGroup> levels{}, wanted_rounded{};
-  std::array<double, 3 * kLevelGroup> wanted{};
+  std::array<std::uint8_t, 3 * kLevelGroup> levels{};
   std::copy_n(shown.object.data() + first, count, shown_object.data());
   std::copy_n(exact.object.data() + first, count, exact_object.data());
   std::transform(exact.region.data() + first, exact.region.data() + exact.pixels(), region.data(),
                  [](frame::Region one) { return static_cast<std::uint8_t>(one); });
   std::copy_n(shown.rgb.data() + 3 * first, 3 * count, levels.data());
-  std::copy_n(exact.rgb.data() + 3 * first, 3 * count, wanted.data());
-  sums.add({1, shown_object.data(), exact_object.data(), region.data(), levels.data(), wanted.data(),
-            wanted_rounded.data()});
-  std::copy_n(wanted_rounded.data(), 3 * count, rounded.data() + 3 * first);
+  sums.add({1, shown_object.data(), exact_object.data(), region.data(), levels.data(),
+            exact.rgb.rounded_planes().data() + 3 * first, exact.rgb.residual_planes().data() + 3 * first});
 }
 
 }  // namespace
@@ -95,20 +88,18 @@ LevelSums& LevelSums::operator+=(const LevelSums& other) {
   return *this;
 }
 
-LevelComparison compare_frames(const frame::Frame& shown, const frame::ExactFrame& exact,
-                               std::vector<std::uint8_t>& rounded) {
+LevelComparison compare_frames(const frame::Frame& shown, const frame::ExactFrame& exact) {
   if (shown.columns != exact.columns || shown.lines != exact.lines)
     throw std::invalid_argument("pictures of different sizes are compared");
-  rounded.resize(3 * exact.pixels());
   Sums sums;
   const std::size_t groups = exact.pixels() / kLevelGroup;
   for (std::size_t group = 0; group < groups; group += kMostGroups) {
     const std::size_t pixel = group * kLevelGroup;
     sums.add({std::min(kMostGroups, groups - group), shown.object.data() + pixel, exact.object.data() + pixel,
               reinterpret_cast<const std::uint8_t*>(exact.region.data() + pixel), shown.rgb.data() + 3 * pixel,
-              exact.rgb.data() + 3 * pixel, rounded.data() + 3 * pixel});
+              exact.rgb.rounded_planes().data() + 3 * pixel, exact.rgb.residual_planes().data() + 3 * pixel});
   }
-  add_rest(shown, exact, rounded, sums);
+  add_rest(shown, exact, sums);
   return {sums.regions};
 }
 

@@ -183,7 +183,7 @@ frame::ExactFrame render(const scene::Scene& scene, const scene::Pose& pose, con
       const glm::dvec2 place = place_of(pixel, out.columns);
       levels = levels_of(solids[here.solid - 1], light, place.x, place.y, specular[pixel]);
     }
-    for (int c = 0; c < 3; ++c) out.rgb[3 * pixel + static_cast<std::size_t>(c)] = levels[c];
+    for (int c = 0; c < 3; ++c) out.rgb.set(3 * pixel + static_cast<std::size_t>(c), levels[c]);
   }
   mark(out, specular, drawn.list, solids, seen);
   return out;

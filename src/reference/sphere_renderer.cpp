@@ -102,7 +102,7 @@ frame::ExactFrame render_spheres(const scene::Scene& scene, const scene::Pose& p
         out.object[pixel] = static_cast<std::uint32_t>(hit->sphere + 1);
         out.coverage[pixel] = 1;
       }
-      for (int c = 0; c < 3; ++c) out.rgb[3 * pixel + static_cast<std::size_t>(c)] = levels[c];
+      for (int c = 0; c < 3; ++c) out.rgb.set(3 * pixel + static_cast<std::size_t>(c), levels[c]);
     }
   // Spheres that do not show the same at two pixels are others.
   mark_regions(out, specular, [](std::size_t, std::size_t) { return true; });

@@ -45,7 +45,7 @@ void write_exr_frame(const std::string& path, const frame::Frame& shown, const f
     exact.resize(values);
     error.resize(values);
     for (std::size_t i = 0; i < values; ++i) {
-      exact[i] = static_cast<float>(ideal->rgb.at(i) / kLevels);
+      exact[i] = static_cast<float>(ideal->rgb[i] / kLevels);
       error[i] = static_cast<float>((shown.rgb[i] - ideal->rgb[i]) / kLevels);
     }
     add_interleaved(channels, {"reference.R", "reference.G", "reference.B"}, exact);

@@ -130,7 +130,7 @@ class Pairs {
     options.specular_mean = machine_.shading.specular_tables == 1;
     const frame::ExactFrame exact = reference::render(scene_, shown.pose, options);
     const double start = worked();
-    const reference::LevelComparison levels = reference::compare_frames(pixels, exact, rounded_);
+    const reference::LevelComparison levels = reference::compare_frames(pixels, exact);
     const double between = worked();
     const reference::ErrorFigures figures = meter_.measure(pixels, exact);
     const double end = worked();
@@ -149,7 +149,6 @@ class Pairs {
   std::unique_ptr<plain::Loop> loop_;
   std::vector<std::uint8_t> rgb_;
   double started_ = 0.0;
-  std::vector<std::uint8_t> rounded_;
   reference::ErrorMeter meter_{{"ideal"}};
   std::vector<double> simulated_, plain_, set_up_, spans_, shading_, levels_, metrics_;
   Measured measured_;

@@ -26,14 +26,14 @@ FramePair plain_pair(std::size_t columns, std::size_t lines, int level = 100) {
   pair.exact.object = pair.shown.object;
   std::fill(pair.exact.region.begin(), pair.exact.region.end(), Region::inside);
   std::fill(pair.shown.rgb.begin(), pair.shown.rgb.end(), static_cast<std::uint8_t>(level));
-  std::fill(pair.exact.rgb.begin(), pair.exact.rgb.end(), static_cast<double>(level));
+  pair.exact.rgb.assign(std::vector<double>(pair.exact.rgb.size(), level));
   return pair;
 }
 
 void set_grey(FramePair& pair, std::size_t pixel, int shown, double exact) {
   for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
     pair.shown.rgb[i] = static_cast<std::uint8_t>(shown);
-    pair.exact.rgb[i] = exact;
+    pair.exact.rgb.set(i, exact);
   }
 }
 

@@ -39,7 +39,7 @@ inline FramePair random_frames(std::size_t columns, std::size_t lines, std::uint
         const double exact = below(2) == 0 ? level : std::min(level + 0.5, 255.0);
         const double beside[] = {exact, std::nextafter(exact, 0.0), std::min(std::nextafter(exact, 300.0), 255.0),
                                  std::min(level + below(1000) / 1000.0, 255.0)};
-        pair.exact.rgb[i] = beside[below(4)];
+        pair.exact.rgb.set(i, beside[below(4)]);
         pair.shown.rgb[i] =
             static_cast<std::uint8_t>(std::min<std::uint32_t>(255, level + below(most) * (below(4) == 0 ? 1 : 0)));
       }

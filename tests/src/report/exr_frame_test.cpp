@@ -24,7 +24,7 @@ class ExrFrameTest : public testing::Test {
     shown_.material = {0, 15};
     shown_.coverage = {0, 3};
     exact_.resize(2, 1);
-    exact_.rgb = {0.0, 51.0, 204.0, 10.25, 20.0, 0.0};
+    exact_.rgb.assign({0.0, 51.0, 204.0, 10.25, 20.0, 0.0});
     exact_.region = {frame::Region::silhouettes, frame::Region::highlights};
   }
   void TearDown() override { std::filesystem::remove(path_); }
