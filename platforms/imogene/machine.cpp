@@ -6,6 +6,9 @@
 
 #include "modules/decision_unit/decision_unit.h"
 #include "modules/object_processor/microprogram.h"
+#include "modules/object_processor/second_order_program.h"
+#include "modules/quadric_processor/quadric_logic.h"
+#include "modules/set_up/word_format.h"
 #include "src/base/fixed_point.h"
 
 namespace rastertlm::imogene {
@@ -30,13 +33,26 @@ void check_retrace(const Machine& machine) {
                      needs.copy().count(), machine.processors(), needs.skew.count(), timing.frame.count())});
 }
 
+void check_quadric_line_start(const Machine& machine) {
+  const Cycles needed = board_needs(machine).quadric_line_start;
+  const video::Timing timing = video::timing(machine.video);
+  if (needed <= timing.horizontal_blanking) return;
+  throw InputError({"", 0, "quadric_processor.slice_bits",
+                    fmt::format("the line start of quadrics takes {} pixel clocks, and horizontal blanking has {}",
+                                needed.count(), timing.horizontal_blanking.count())});
+}
+
 }  // namespace
 
 BoardNeeds board_needs(const Machine& machine) {
-  return {object_processor::line_start_cycles(machine.object_processor.slices()),
-          object_processor::frame_start_cycles(),
-          decision_unit::skew(machine.decision_unit.topology, machine.processors(),
-                              Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)))};
+  const bool quadrics = machine.quadric.per_unit > 0;
+  return {
+      object_processor::line_start_cycles(machine.object_processor.slices()),
+      quadrics ? quadric_processor::line_start_cycles(machine.quadric, video::timing(machine.video).fields) : Cycles(0),
+      quadrics ? std::max(object_processor::frame_start_cycles(), object_processor::second_order_frame_start_cycles())
+               : object_processor::frame_start_cycles(),
+      decision_unit::skew(machine.decision_unit.topology, machine.processors(),
+                          Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)))};
 }
 
 void Machine::declare(parameter::Table& table) {
@@ -52,6 +68,7 @@ void Machine::declare(parameter::Table& table) {
   video.declare(table);
   host.declare(table);
   object_processor.declare(table);
+  quadric.declare(table);
   decision_unit.declare(table);
   shading.declare(table);
   loader.declare(table);
@@ -60,6 +77,7 @@ void Machine::declare(parameter::Table& table) {
 void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
   host.check(diagnostics, file);
   object_processor.check(diagnostics, file);
+  quadric.check(object_processor, diagnostics, file);
   shading.check(object_processor.normal_bits, file, diagnostics);
   loader.check(shading, file, diagnostics);
   const auto gather = [&](const auto& step) {
@@ -82,15 +100,33 @@ void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
            fmt::format("the line start takes {} pixel clocks{}, and horizontal blanking has {}", line_start.count(),
                        timing.fields > 1 ? " (interlaced: two lines' work)" : "", timing.horizontal_blanking.count())});
   });
+  gather([&] { check_quadric_line_start(*this); });
   gather([&] { check_retrace(*this); });
   if (processors() > kMostProcessors)
     diagnostics.add({file, 0, "host.processors_per_unit",
                      fmt::format("{} units of {} are more than {} object processors", host.computation_units,
-                                 host.processors_per_unit, kMostProcessors)});
+                                 host.processors_per_unit + quadric.per_unit, kMostProcessors)});
 }
 
-std::uint64_t Machine::processors() const {
+std::uint64_t Machine::triangle_processors() const {
   return static_cast<std::uint64_t>(host.computation_units) * static_cast<std::uint64_t>(host.processors_per_unit);
+}
+
+std::uint64_t Machine::quadric_processors() const {
+  return static_cast<std::uint64_t>(host.computation_units) * static_cast<std::uint64_t>(quadric.per_unit);
+}
+
+Cycles quadric_delay(const Machine& machine) {
+  if (machine.quadric.per_unit == 0 || machine.quadric.alignment == quadric_processor::Alignment::early_start)
+    return Cycles(0);
+  return Cycles(machine.quadric.latency_cycles());
+}
+
+quadric_processor::DepthRange depth_range(const Machine& machine) {
+  const set_up::WordFormat format{static_cast<int>(machine.object_processor.word_bits),
+                                  static_cast<std::size_t>(machine.video.columns),
+                                  static_cast<std::size_t>(machine.video.lines)};
+  return {set_up::near_depth(format), set_up::far_depth(format)};
 }
 
 unsigned Machine::material_bits() const {

@@ -7,6 +7,8 @@
 #include "modules/decision_unit/parameters.h"
 #include "modules/host/parameters.h"
 #include "modules/object_processor/parameters.h"
+#include "modules/quadric_processor/parameters.h"
+#include "modules/quadric_processor/quadric_pixel.h"
 #include "modules/shading/loader_parameters.h"
 #include "modules/shading/parameters.h"
 #include "modules/video/parameters.h"
@@ -27,6 +29,7 @@ struct Machine {
   video::VideoParameters video;
   host::HostParameters host;
   object_processor::ObjectProcessorParameters object_processor;
+  quadric_processor::QuadricParameters quadric;
   decision_unit::DecisionUnitParameters decision_unit;
   shading::ShadingParameters shading;
   shading::LoaderParameters loader;
@@ -35,18 +38,27 @@ struct Machine {
   // What no single range can say; `file` names the machine file in the diagnostics.
   void check(Diagnostics& diagnostics, const std::string& file) const;
 
-  std::uint64_t processors() const;
+  std::uint64_t triangle_processors() const;
+  std::uint64_t quadric_processors() const;
+  std::uint64_t processors() const { return triangle_processors() + quadric_processors(); }
   unsigned material_bits() const;  // of a link word: enough for every material, at least 1
 };
 
 // What the object boards must do before pixels come, in pixel clocks.
 struct BoardNeeds {
-  Cycles line_start;   // the line start microprogram, once
+  Cycles line_start;          // the line start microprogram of triangles, once
+  Cycles quadric_line_start;  // of quadrics, where there are any, for the lines of a field that lie between two
   Cycles frame_start;  // the copy of loading RAMs: in every retrace C comes back, which the sums of lines have replaced
   Cycles skew;         // by which the last processor of a pipeline is behind the first; 0 in a tree
   Cycles copy() const { return skew + frame_start; }  // until the last processor has copied
 };
 BoardNeeds board_needs(const Machine& machine);
+
+// By how much quadrics are later than triangles; nothing where they start earlier, or there are none.
+Cycles quadric_delay(const Machine& machine);
+
+// The depth words of the near and the far plane.
+quadric_processor::DepthRange depth_range(const Machine& machine);
 
 // The grids of this machine's edge words. Throws InputError with the word width that would do, where none fits.
 geometry::SnapGrids snap_grids(const Machine& machine);
