@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "modules/object_processor/bus_address.h"
+#include "modules/quadric_processor/quadric_words.h"
 #include "modules/stream/failure.h"
 
 namespace rastertlm::host {
@@ -14,24 +15,22 @@ using stream::Activity;
 using stream::picoseconds_now;
 using stream::wait_until;
 
-namespace {
-
-std::uint64_t words_of(const Load& load) { return load.park ? kParkWords : object_processor::kWords; }
-
-}  // namespace
-
 ComputationUnitModule::ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit,
-                                             Computation& computation, const HostCost& cost, std::size_t children,
-                                             const sc_core::sc_event& swapped, Links links, const CopyTimes& copies)
+                                             Computation& computation, Solids solids, const HostCost& cost,
+                                             std::size_t children, const sc_core::sc_event& swapped, Links links,
+                                             const CopyTimes& copies)
     : sc_module(name),
       from_above("from_above"),
       to_above("to_above"),
       down("down", children),
       up("up", children),
       bus("bus"),
+      quadric_bus("quadric_bus", solids.computation == nullptr ? 0 : 1),
       ready("ready"),
       unit_(unit),
       computation_(computation),
+      quadrics_(solids.computation),
+      quadric_words_(solids.words_a_slot),
       cost_(cost),
       swapped_(swapped),
       links_(std::move(links)),
@@ -94,7 +93,7 @@ void ComputationUnitModule::work_on_frame(const FrameWork& work) {
   meter_.enter(Activity::starved, picoseconds_now());
   Message plan = take(Message::Kind::plan);
   forward(plan);
-  fit_and_write(plan);
+  fit_and_write(plan, work);
 }
 
 void ComputationUnitModule::spend_computing(const geometry::OperationCounts& before) {
@@ -106,29 +105,35 @@ void ComputationUnitModule::spend_computing(const geometry::OperationCounts& bef
   wait(stream::to_time(cost_.clock(), cycles));
 }
 
-// Each slot is written when its coefficients are known. Nothing reads a loading RAM but a copy: the words that stand
-// there before the next one are written at once, and their time passes afterwards.
-void ComputationUnitModule::fit_and_write(const Message& plan) {
+// Each slot is written when its coefficients are known, triangles first. Nothing reads a loading RAM but a copy: the
+// words that stand there before the next one are written at once, and their time passes afterwards.
+void ComputationUnitModule::fit_and_write(const Message& plan, const FrameWork& work) {
   const geometry::OperationCounts before = computation_.operations();
   const BusSchedule schedule = first_ ? BusSchedule(cost_.clock()) : BusSchedule(cost_.clock(), copies_, swap_ps_);
   const Cycles start = cycles_since_swap();
   // Where no copy comes any more, the order of words and arithmetic moves nothing.
   const bool may_be_copied = schedule.next(start).has_value();
-  const std::vector<Load>& loads = computation_.set_up(plan.guarded, (*plan.placed)[unit_], may_be_copied);
-  const geometry::OperationCounts counts = computation_.operations() - before;
+  loads_ = &computation_.set_up(plan.guarded, (*plan.placed)[unit_], may_be_copied);
+  const geometry::OperationCounts of_triangles = computation_.operations() - before;
+  geometry::OperationCounts counts = of_triangles;
+  if (quadrics_ != nullptr) {
+    const geometry::OperationCounts before_solids = quadrics_->operations();
+    solids_ = &quadrics_->set_up(work, may_be_copied);
+    counts += quadrics_->operations() - before_solids;
+  }
   update_.operations += counts;
   const Cycles computing = cost_.compute(counts);
   update_.computing += computing;
-  for (const Load& load : loads) update_.words += words_of(load);
+  for (std::size_t i = 0; i < parcels(); ++i) update_.words += parcel(i).words;
   update_.writing = cost_.bus(update_.words);
-  load_ = word_ = 0;
+  parcel_ = word_ = 0;
   if (may_be_copied)
-    cut_into_segments(loads, computing);
+    cut_into_segments(computing, of_triangles);
   else
     segments_.assign(1, {computing, update_.words});
   for (BusBurst burst(schedule, segments_, cost_.word(), start); !burst.done();) {
     const BusBurst::Step step = burst.step();
-    write_words(loads, step.words);
+    write_words(step.words);
     const std::uint64_t bus_words = cost_.bus_words(step.words);  // the bus' clock moves one a cycle
     links_.bus->record(bus_words, Cycles(bus_words), picoseconds_now(), schedule.picoseconds(burst.cycle()));
     update_.stalled += step.blocked;
@@ -137,43 +142,71 @@ void ComputationUnitModule::fit_and_write(const Message& plan) {
   }
 }
 
-void ComputationUnitModule::cut_into_segments(const std::vector<Load>& loads, Cycles computing) {
+ComputationUnitModule::Parcel ComputationUnitModule::parcel(std::size_t number) const {
+  if (!is_solid(number)) {
+    const Load& load = (*loads_)[number];
+    return {load.slot, load.park ? 0 : load.object + 1, load.park ? kParkWords : object_processor::kWords};
+  }
+  const QuadricLoad& load = (*solids_)[number - loads_->size()];
+  return {load.slot, load.park ? 0 : load.object + 1, load.park ? quadric_processor::kParkWords : quadric_words_};
+}
+
+void ComputationUnitModule::cut_into_segments(Cycles computing, const geometry::OperationCounts& of_triangles) {
   segments_.clear();
   Cycles computed;
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    const Cycles until = cost_.compute(computation_.before()[i]);
-    segments_.push_back({until - computed, words_of(loads[i])});
+  for (std::size_t i = 0; i < parcels(); ++i) {
+    geometry::OperationCounts counts;
+    if (is_solid(i)) {
+      counts = of_triangles;
+      counts += quadrics_->before()[i - loads_->size()];
+    } else {
+      counts = computation_.before()[i];
+    }
+    const Cycles until = cost_.compute(counts);
+    segments_.push_back({until - computed, parcel(i).words});
     computed = until;
   }
   segments_.push_back({computing - computed, 0});
 }
 
-void ComputationUnitModule::write_words(const std::vector<Load>& loads, std::uint64_t count) {
+void ComputationUnitModule::write_words(std::uint64_t count) {
   words_sent_ += count;
   while (count > 0) {
-    const Load& load = loads[load_];
-    const std::uint64_t left = words_of(load) - word_;
+    const std::uint64_t left = parcel(parcel_).words - word_;
     const std::uint64_t now = std::min(left, count);
-    write(load, word_, now);
+    write(parcel_, word_, now);
     count -= now;
     word_ += now;
     if (now < left) continue;
-    ++load_;
+    ++parcel_;
     word_ = 0;
   }
 }
 
 // A burst of consecutive words of a slot.
-void ComputationUnitModule::write(const Load& load, std::size_t first_word, std::size_t count) {
-  object_processor::ProcessorWords words = object_processor::to_words(load.words);
-  object_number_.object = load.park ? 0 : load.object + 1;
-  write_payload_.set_address(object_processor::bus_address(unit_, load.slot, first_word));
-  write_payload_.set_data_ptr(reinterpret_cast<unsigned char*>(words.data() + first_word));
+void ComputationUnitModule::write(std::size_t number, std::size_t first_word, std::size_t count) {
+  const Parcel at = parcel(number);
+  object_number_.object = at.object;
+  if (is_solid(number)) {
+    quadric_processor::QuadricImage image = quadric_processor::to_image((*solids_)[number - loads_->size()].words);
+    put_on_bus(quadric_bus[0],
+               object_processor::bus_address(unit_, at.slot, first_word, quadric_processor::kQuadricShift),
+               image.data() + first_word, count);
+    return;
+  }
+  object_processor::ProcessorWords words = object_processor::to_words((*loads_)[number].words);
+  put_on_bus(bus, object_processor::bus_address(unit_, at.slot, first_word), words.data() + first_word, count);
+}
+
+void ComputationUnitModule::put_on_bus(BusSocket& socket, std::uint64_t address, std::uint32_t* words,
+                                       std::size_t count) {
+  write_payload_.set_address(address);
+  write_payload_.set_data_ptr(reinterpret_cast<unsigned char*>(words));
   write_payload_.set_data_length(static_cast<unsigned>(count * sizeof(std::uint32_t)));
   write_payload_.set_streaming_width(write_payload_.get_data_length());
   write_payload_.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
   sc_core::sc_time delay;
-  bus->b_transport(write_payload_, delay);
+  socket->b_transport(write_payload_, delay);
   if (write_payload_.is_response_error())
     throw ModelError(name(), cost_.clock().cycles_at(picoseconds_now()).count(),
                      "the board refused a bus write: " + write_payload_.get_response_string());

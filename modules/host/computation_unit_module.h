@@ -1,6 +1,6 @@
-// A computation unit: one transputer with an object board on its bus. It receives a frame's changes, forwards them,
-// transforms its triangles, reports and is told the frame's grid, fits the coefficients and writes them to the loading
-// RAMs.
+// A computation unit: one transputer with an object board on its bus, and a board of quadric processors where the
+// machine has them. It receives a frame's changes, forwards them, transforms its triangles, reports and is told the
+// frame's grid, fits the coefficients, computes the words of its solids, and writes them to the loading RAMs.
 #pragma once
 
 #include <tlm_utils/simple_initiator_socket.h>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "modules/host/bus_schedule.h"
+#include "modules/host/quadric_computation.h"
 #include "modules/host/serial_links_module.h"
 #include "modules/object_processor/object_number_payload.h"
 #include "modules/stream/occupancy.h"
@@ -22,8 +23,10 @@ class ComputationUnitModule : public sc_core::sc_module {
   MessageInitiator<ComputationUnitModule> to_above;
   sc_core::sc_vector<MessageInitiator<ComputationUnitModule>> down;
   sc_core::sc_vector<MessageTarget<ComputationUnitModule>> up;
-  tlm_utils::simple_initiator_socket<ComputationUnitModule, 32> bus;  // to the object board
-  sc_core::sc_out<bool> ready;                                        // the loading RAMs hold the next frame
+  using BusSocket = tlm_utils::simple_initiator_socket<ComputationUnitModule, 32>;
+  BusSocket bus;                              // to the object board
+  sc_core::sc_vector<BusSocket> quadric_bus;  // the same wires, to the quadric board: one, or none
+  sc_core::sc_out<bool> ready;                // the loading RAMs hold the next frame
 
   struct Links {
     stream::Link* above;
@@ -33,9 +36,15 @@ class ComputationUnitModule : public sc_core::sc_module {
   };
 
   // `swapped`: at a retrace at which every unit had finished; `copies`: when its board takes no words.
+  // What it computes for quadric processors, and the words of such a slot; null in a machine that has none.
+  struct Solids {
+    QuadricComputation* computation = nullptr;
+    std::uint64_t words_a_slot = 0;
+  };
+
   ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit, Computation& computation,
-                        const HostCost& cost, std::size_t children, const sc_core::sc_event& swapped, Links links,
-                        const CopyTimes& copies);
+                        Solids solids, const HostCost& cost, std::size_t children, const sc_core::sc_event& swapped,
+                        Links links, const CopyTimes& copies);
   ~ComputationUnitModule() override {
     write_payload_.clear_extension(&object_number_);
   }  // it is a member, not the payload's to free
@@ -66,16 +75,28 @@ class ComputationUnitModule : public sc_core::sc_module {
   void report(Survey own);
   void work_on_frame(const FrameWork& work);
   void spend_computing(const geometry::OperationCounts& before);
-  void fit_and_write(const Message& plan);
-  void cut_into_segments(const std::vector<Load>& loads, Cycles computing);
-  void write_words(const std::vector<Load>& loads, std::uint64_t count);
-  void write(const Load& load, std::size_t first_word, std::size_t count);
+  // What is written of a slot, and where it stands.
+  struct Parcel {
+    std::uint32_t slot = 0;
+    std::uint32_t object = 0;  // from 1; 0: parked
+    std::uint64_t words = 0;
+  };
+  std::size_t parcels() const { return loads_->size() + (solids_ == nullptr ? 0 : solids_->size()); }
+  bool is_solid(std::size_t parcel) const { return parcel >= loads_->size(); }
+  Parcel parcel(std::size_t number) const;
+  void fit_and_write(const Message& plan, const FrameWork& work);
+  void cut_into_segments(Cycles computing, const geometry::OperationCounts& of_triangles);
+  void write_words(std::uint64_t count);
+  void write(std::size_t parcel, std::size_t first_word, std::size_t count);
+  void put_on_bus(BusSocket& socket, std::uint64_t address, std::uint32_t* words, std::size_t count);
   void send_on(MessageInitiator<ComputationUnitModule>& socket, MessagePayload& payload, LinkPort& port);
   void receive_from_above(MessagePayload& payload, sc_core::sc_time& delay);
   void receive_from_below(MessagePayload& payload, sc_core::sc_time& delay);
 
   std::uint32_t unit_;
   Computation& computation_;
+  QuadricComputation* quadrics_;
+  std::uint64_t quadric_words_;  // of a slot
   const HostCost& cost_;
   const sc_core::sc_event& swapped_;
   Links links_;
@@ -97,8 +118,10 @@ class ComputationUnitModule : public sc_core::sc_module {
   tlm::tlm_generic_payload write_payload_;
   object_processor::ObjectNumber object_number_;
   std::vector<Segment> segments_;
-  std::size_t load_ = 0;  // of the frame's loads, the one that is being written
-  std::size_t word_ = 0;  // and how many words of it are
+  const std::vector<Load>* loads_ = nullptr;          // of the frame
+  const std::vector<QuadricLoad>* solids_ = nullptr;  // after them
+  std::size_t parcel_ = 0;                            // of the frame's parcels, the one that is being written
+  std::size_t word_ = 0;                              // and how many words of it are
   Update update_;
   bool first_ = true;          // the initial load: nothing is copied meanwhile
   std::uint64_t swap_ps_ = 0;  // the retrace that started the current update; 0 for the first

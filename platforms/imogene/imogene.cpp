@@ -22,15 +22,20 @@ std::vector<std::size_t> loaded_materials(const Machine& machine, const scene::S
     return all;
   }
   std::set<std::size_t> used;
-  for (const scene::Object& object : scene.objects)
+  for (const scene::Object& object : scene.objects) {
     used.insert(object.mesh.material.begin(), object.mesh.material.end());
+    if (object.solid) used.insert(object.solid->material);
+  }
   return {used.begin(), used.end()};
 }
 
 host::ResidentScene resident_scene(const Machine& machine, const scene::Scene& scene) {
   host::ResidentScene resident;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    resident.objects.push_back({&scene.objects[i].mesh, scene.objects[i].two_sided, scene::object_moves(scene, i)});
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const scene::Object& object = scene.objects[i];
+    resident.objects.push_back(
+        {&object.mesh, object.two_sided, scene::object_moves(scene, i), object.solid ? &*object.solid : nullptr});
+  }
   resident.camera_moves = scene::camera_moves(scene);
   resident.pose = [&scene, columns = static_cast<std::size_t>(machine.video.columns),
                    lines = static_cast<std::size_t>(machine.video.lines)](std::int64_t frame) {
@@ -39,11 +44,22 @@ host::ResidentScene resident_scene(const Machine& machine, const scene::Scene& s
   return resident;
 }
 
-// The meshes of every unit and of those that it feeds, which cross the link to it once. Units feed units with higher
-// numbers.
-std::vector<std::uint64_t> subtree_mesh_bytes(const host::SlotMap& slots, const host::HostParameters& host) {
+std::vector<const geometry::Solid*> solids_of(const scene::Scene& scene) {
+  std::vector<const geometry::Solid*> solids;
+  for (const scene::Object& object : scene.objects)
+    if (object.solid) solids.push_back(&*object.solid);
+  return solids;
+}
+
+// The meshes and solids of every unit and of those that it feeds, which cross the link to it once. Units feed units
+// with higher numbers.
+std::vector<std::uint64_t> subtree_mesh_bytes(const host::SlotMap& slots, const host::SlotMap& solid_slots,
+                                              const scene::Scene& scene, const host::HostParameters& host) {
   std::vector<std::uint64_t> bytes;
   for (const auto& owners : slots.boards) bytes.push_back(host::kResidentTriangleBytes * owners.size());
+  const auto solids = solids_of(scene);
+  for (std::size_t k = 0; k < bytes.size(); ++k)
+    for (const host::SlotOwner& owner : solid_slots.boards[k]) bytes[k] += host::resident_bytes(*solids[owner.object]);
   for (std::size_t k = bytes.size(); k-- > 0;)
     for (const std::size_t child :
          host::children(k + 1, bytes.size(), host.link_topology, static_cast<std::size_t>(host.links)))
@@ -57,6 +73,12 @@ std::uint32_t depth_of_nothing(const Machine& machine) {
   return static_cast<std::uint32_t>(low_mask(static_cast<unsigned>(machine.object_processor.word_bits)));
 }
 
+// Words of solids are of 32 bits each on the bus, and a triangle's cross it as they do.
+std::int64_t bus_word_bits(const Machine& machine) {
+  constexpr std::int64_t kSolidWordBits = 32;
+  return machine.quadric.per_unit > 0 ? kSolidWordBits : machine.object_processor.word_bits;
+}
+
 Cycles cycles_of(std::int64_t count) { return Cycles(static_cast<std::uint64_t>(count)); }
 
 }  // namespace
@@ -68,8 +90,9 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
       sink_(std::move(sink)),
       timing_(video::timing(machine.video)),
       grids_(snap_grids(machine)),
-      cost_(machine.host, machine.object_processor.word_bits),
+      cost_(machine.host, bus_word_bits(machine)),
       slots_(host::assign_objects(scene.triangle_count(), machine.host)),
+      solid_slots_(host::assign_solids(scene.solid_count(), machine.host, machine.quadric.per_unit)),
       resident_(resident_scene(machine, scene)),
       animation_(resident_, machine.host.send == host::Send::all),
       decision_(machine.decision_unit, depth_of_nothing(machine)),
@@ -86,12 +109,13 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
                       fmt::format("{} frames last longer than the 46 days that can be simulated", options.frames)});
   decision_latency_ = decision_unit::latency(machine.decision_unit.topology, machine.processors(),
                                              cycles_of(machine.object_processor.comparator_cycles));
-  pixel_latency_ =
-      cycles_of(machine.object_processor.prenormalisation_cycles) + decision_latency_ + machine.shading.total_latency();
+  pixel_latency_ = cycles_of(machine.object_processor.prenormalisation_cycles) + quadric_delay(machine) +
+                   decision_latency_ + machine.shading.total_latency();
   load_materials();
   build_links();
   build_hosts();
   build_boards();
+  if (has_quadrics()) build_quadric_boards();
   build_shading();
   build_video();
   bind_hosts();
@@ -100,8 +124,10 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
 
 void Imogene::load_materials() {
   Diagnostics diagnostics;
-  for (const Diagnostic& solid : scene::refuse_solids(scene_, "this machine has no quadric processors"))
-    diagnostics.add(solid);
+  if (machine_.quadric.per_unit == 0)
+    for (const Diagnostic& solid :
+         scene::refuse_solids(scene_, "this machine has no quadric processors (quadric_processor.per_unit)"))
+      diagnostics.add(solid);
   if (scene_.materials.size() > static_cast<std::size_t>(machine_.shading.materials))
     diagnostics.add({"", 0, "shading.materials",
                      fmt::format("the scene has {} materials and the shading tables hold {}", scene_.materials.size(),
@@ -167,6 +193,9 @@ void Imogene::build_links() {
   for (std::size_t k = 0; k < units; ++k)
     board_links_.push_back(
         &add_link(fmt::format("board {} to decision unit", k), static_cast<unsigned>(width.bits()), timing_.clock));
+  for (std::size_t k = 0; has_quadrics() && k < units; ++k)
+    quadric_links_.push_back(&add_link(fmt::format("quadric board {} to decision unit", k),
+                                       static_cast<unsigned>(width.bits()), timing_.clock));
 }
 
 void Imogene::build_hosts() {
@@ -184,7 +213,7 @@ void Imogene::build_hosts() {
       result.push_back(host_links_[child]);
     return result;
   };
-  const std::vector<std::uint64_t> subtree = subtree_mesh_bytes(slots_, machine_.host);
+  const std::vector<std::uint64_t> subtree = subtree_mesh_bytes(slots_, solid_slots_, scene_, machine_.host);
   const auto meshes_below = [&](std::size_t node) {
     std::vector<std::uint64_t> result;
     for (const std::size_t child : host::children(node, units, machine_.host.link_topology, links))
@@ -194,10 +223,11 @@ void Imogene::build_hosts() {
   // The last processor copies later than the first by the skew of the microinstruction.
   const host::CopyTimes copies{timing_.clock, timing_.frame, board_needs(machine_).copy(),
                                machine_.host.swap == host::Swap::unconditional};
+  const std::size_t quadric_boards = has_quadrics() ? units : 0;
   // The retraces are the video timing's, which comes first.
   video_timing_ = std::make_unique<video::VideoTimingModule>(
-      "video_timing", timing_, static_cast<std::size_t>(machine_.video.lines), units + 2, units, options_.frames,
-      kPatienceFrames,
+      "video_timing", timing_, static_cast<std::size_t>(machine_.video.lines), units + quadric_boards + 2, units,
+      options_.frames, kPatienceFrames,
       machine_.host.swap == host::Swap::unconditional ? video::VideoTimingModule::Copy::at_every_retrace
                                                       : video::VideoTimingModule::Copy::when_ready);
   animation_unit_ = std::make_unique<host::AnimationUnitModule>(
@@ -205,10 +235,17 @@ void Imogene::build_hosts() {
       host::AnimationUnitModule::Timeline{&video_timing_->swapped,
                                           [this] { return video_timing_->video_frames_shown() - 1; }},
       below(0), meshes_below(0), loader_bus_);
+  const set_up::QuadricFormat solid_format{machine_.quadric, format.words};
   for (std::size_t k = 0; k < units; ++k) {
+    if (has_quadrics())
+      quadric_computations_.push_back(
+          std::make_unique<host::QuadricComputation>(resident_, solid_format, solid_slots_.boards[k]));
+    const host::ComputationUnitModule::Solids solids{
+        has_quadrics() ? quadric_computations_.back().get() : nullptr,
+        quadric_processor::words_of_slot(static_cast<std::size_t>(machine_.quadric.caps))};
     computations_.push_back(std::make_unique<host::Computation>(resident_, format, slots_.boards[k]));
     computation_units_.push_back(std::make_unique<host::ComputationUnitModule>(
-        fmt::format("computation_unit_{}", k).c_str(), static_cast<std::uint32_t>(k), *computations_[k], cost_,
+        fmt::format("computation_unit_{}", k).c_str(), static_cast<std::uint32_t>(k), *computations_[k], solids, cost_,
         below(k + 1).size(), video_timing_->swapped,
         host::ComputationUnitModule::Links{up_links_[k], below(k + 1), bus_links_[k], meshes_below(k + 1)}, copies));
   }
@@ -217,7 +254,7 @@ void Imogene::build_hosts() {
 void Imogene::build_boards() {
   const std::size_t units = slots_.boards.size();
   const auto processors = static_cast<std::uint32_t>(machine_.host.processors_per_unit);
-  const Cycles first_pixel = timing_.horizontal_blanking + cycles_of(machine_.object_processor.prenormalisation_cycles);
+  const Cycles first_pixel = first_pixel_of_boards();
   boards_.reserve(units);
   for (std::size_t k = 0; k < units; ++k) {
     boards_.emplace_back(
@@ -231,21 +268,47 @@ void Imogene::build_boards() {
   }
 }
 
+Cycles Imogene::first_pixel_of_boards() const {
+  return timing_.horizontal_blanking + cycles_of(machine_.object_processor.prenormalisation_cycles) +
+         quadric_delay(machine_);
+}
+
+// Behind all triangle processors: of equal depths a triangle's wins.
+void Imogene::build_quadric_boards() {
+  const std::size_t units = slots_.boards.size();
+  const auto processors = static_cast<std::uint32_t>(machine_.quadric.per_unit);
+  const quadric_processor::QuadricScreen screen{
+      static_cast<std::uint32_t>(machine_.video.columns), static_cast<std::uint32_t>(machine_.video.lines),
+      static_cast<unsigned>(machine_.object_processor.word_bits), depth_range(machine_)};
+  quadric_boards_.reserve(units);
+  for (std::size_t k = 0; k < units; ++k) {
+    const auto first = static_cast<std::uint32_t>(machine_.triangle_processors() + k * processors);
+    quadric_boards_.emplace_back(
+        machine_.quadric, screen, processors, first,
+        options_.model_everything ? object_processor::Visit::everything : object_processor::Visit::needed);
+    quadric_modules_.push_back(std::make_unique<quadric_processor::QuadricBoardModule>(
+        fmt::format("quadric_board_{}", k).c_str(), static_cast<std::uint32_t>(k), quadric_boards_[k],
+        quadric_processor::QuadricBoardModule::Timing{timing_.clock, first_pixel_of_boards()},
+        static_cast<std::size_t>(machine_.video.columns), *quadric_links_[k]));
+  }
+}
+
 void Imogene::build_shading() {
   const auto columns = static_cast<std::size_t>(machine_.video.columns);
   const unsigned fragment_bits = board_links_.front()->bits();
   stream::Link& decided = add_link("decision unit to shading", fragment_bits, timing_.clock);
   stream::Link& rgb =
       add_link("shading to video", 3 * static_cast<unsigned>(machine_.shading.level_bits), timing_.clock);
-  decision_module_ = std::make_unique<decision_unit::DecisionUnitModule>(
-      "decision_unit", decision_, composer_, columns, boards_.size(), timing_.clock, decision_latency_, decided);
+  decision_module_ = std::make_unique<decision_unit::DecisionUnitModule>("decision_unit", decision_, composer_, columns,
+                                                                         boards_.size() + quadric_boards_.size(),
+                                                                         timing_.clock, decision_latency_, decided);
   shading_module_ = std::make_unique<shading::DeferredShadingModule>(
       "deferred_shading", shader_, columns, timing_.clock, machine_.shading.total_latency(), rgb);
 
   const bool sequencer = machine_.loader.kind == shading::LoaderKind::sequencer;
   // A line's first pixel reads the dot-product tables behind the normaliser, the others behind the dot products.
-  const Cycles reads_dots = timing_.horizontal_blanking + cycles_of(machine_.object_processor.prenormalisation_cycles) +
-                            decision_latency_ + cycles_of(machine_.shading.latency.normaliser);
+  const Cycles reads_dots =
+      first_pixel_of_boards() + decision_latency_ + cycles_of(machine_.shading.latency.normaliser);
   const Cycles reads_levels = reads_dots + cycles_of(machine_.shading.latency.dot_product);
   const auto engine = [&](const char* name, shading::TableKind kind, double mhz, std::int64_t bits,
                           std::int64_t tables) {
@@ -294,6 +357,7 @@ void Imogene::bind_hosts() {
     computation_units_[k]->ready.bind(signal);
     video_timing_->ready[k].bind(signal);
     computation_units_[k]->bus.bind(board_modules_[k]->bus);
+    if (has_quadrics()) computation_units_[k]->quadric_bus[0].bind(quadric_modules_[k]->bus);
   }
   for (std::size_t node = 0; node <= units; ++node) {
     const std::vector<std::size_t> fed = host::children(node, units, machine_.host.link_topology, links);
@@ -329,6 +393,10 @@ void Imogene::bind_display() {
   for (std::size_t k = 0; k < boards; ++k) {
     video_timing_->sync[k + 2].bind(board_modules_[k]->sync);
     board_modules_[k]->out.bind(decision_module_->in[k]);
+  }
+  for (std::size_t k = 0; k < quadric_modules_.size(); ++k) {
+    video_timing_->sync[boards + k + 2].bind(quadric_modules_[k]->sync);
+    quadric_modules_[k]->out.bind(decision_module_->in[boards + k]);
   }
   decided_tap_ = stream::bind_watched("decided_tap", options_.decided, decision_module_->out, shading_module_->in);
   shaded_tap_ = stream::bind_watched("shaded_tap", options_.shaded, shading_module_->out, video_output_->in);

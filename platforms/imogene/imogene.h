@@ -14,6 +14,7 @@
 #include "modules/host/computation_unit_module.h"
 #include "modules/host/link_topology.h"
 #include "modules/object_processor/object_board_module.h"
+#include "modules/quadric_processor/quadric_board_module.h"
 #include "modules/shading/deferred_shading_module.h"
 #include "modules/shading/table_loader_module.h"
 #include "modules/stream/tap_module.h"
@@ -55,6 +56,7 @@ struct ShownFrame {
   scene::Pose pose;
   bool guarded = false;
   host::TriangleCounts triangles;
+  host::QuadricCounts solids;
   std::uint64_t flops = 0;  // of the update
   std::uint64_t words = 0;
   std::uint64_t pieces_dropped = 0;  // of clipped triangles, that found no processor
@@ -91,7 +93,8 @@ class Imogene {
   const video::Timing& timing() const { return timing_; }
   const geometry::SnapGrids& grids() const { return grids_; }
   const host::HostCost& cost() const { return cost_; }
-  const host::SlotMap& slots() const { return slots_; }
+  const host::SlotMap& slots() const { return slots_; }  // of triangles
+  const host::SlotMap& solid_slots() const { return solid_slots_; }
   const host::Animation& animation() const { return animation_; }
   std::uint64_t start_ps() const { return video_timing_->first_frame_ps(); }
   std::uint64_t end_ps() const { return end_ps_; }
@@ -104,6 +107,9 @@ class Imogene {
 
   std::vector<object_processor::ObjectBoard>& boards() { return boards_; }
   std::vector<std::unique_ptr<object_processor::ObjectBoardModule>>& board_modules() { return board_modules_; }
+  // One a computation unit, where the machine has quadric processors. Without a solid no processor of them is simulated.
+  std::vector<quadric_processor::QuadricBoard>& quadric_boards() { return quadric_boards_; }
+  std::vector<std::unique_ptr<quadric_processor::QuadricBoardModule>>& quadric_modules() { return quadric_modules_; }
   std::vector<std::unique_ptr<host::ComputationUnitModule>>& computation_units() { return computation_units_; }
   host::AnimationUnitModule& animation_unit() { return *animation_unit_; }
   shading::DeferredShader& shader() { return shader_; }
@@ -120,6 +126,9 @@ class Imogene {
   void build_links();
   void build_hosts();
   void build_boards();
+  void build_quadric_boards();
+  bool has_quadrics() const { return machine_.quadric.per_unit > 0; }
+  Cycles first_pixel_of_boards() const;  // from the start of a line
   void build_shading();
   void build_video();
   void bind_hosts();
@@ -140,20 +149,24 @@ class Imogene {
   geometry::SnapGrids grids_;
   host::HostCost cost_;
   host::SlotMap slots_;
+  host::SlotMap solid_slots_;
   host::ResidentScene resident_;
   host::Animation animation_;
   Cycles decision_latency_;
   Cycles pixel_latency_;
 
   std::deque<stream::Link> links_;
-  std::vector<stream::Link*> host_links_;   // to unit k, from whoever feeds it
-  std::vector<stream::Link*> up_links_;     // from unit k
-  std::vector<stream::Link*> bus_links_;    // of unit k
-  std::vector<stream::Link*> board_links_;  // of board k
+  std::vector<stream::Link*> host_links_;     // to unit k, from whoever feeds it
+  std::vector<stream::Link*> up_links_;       // from unit k
+  std::vector<stream::Link*> bus_links_;      // of unit k
+  std::vector<stream::Link*> board_links_;    // of board k
+  std::vector<stream::Link*> quadric_links_;  // of quadric board k
   std::vector<stream::Link*> table_links_;
   stream::Link* loader_bus_ = nullptr;
   std::vector<std::unique_ptr<host::Computation>> computations_;
+  std::vector<std::unique_ptr<host::QuadricComputation>> quadric_computations_;
   std::vector<object_processor::ObjectBoard> boards_;
+  std::vector<quadric_processor::QuadricBoard> quadric_boards_;
   decision_unit::DecisionUnit decision_;
   object_processor::LineComposer composer_;
   shading::DeferredShader shader_;
@@ -162,6 +175,7 @@ class Imogene {
   std::unique_ptr<host::AnimationUnitModule> animation_unit_;
   std::vector<std::unique_ptr<host::ComputationUnitModule>> computation_units_;
   std::vector<std::unique_ptr<object_processor::ObjectBoardModule>> board_modules_;
+  std::vector<std::unique_ptr<quadric_processor::QuadricBoardModule>> quadric_modules_;
   std::unique_ptr<decision_unit::DecisionUnitModule> decision_module_;
   std::unique_ptr<shading::DeferredShadingModule> shading_module_;
   std::unique_ptr<shading::TableLoaderModule> table_loader_;

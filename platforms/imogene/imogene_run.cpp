@@ -16,6 +16,7 @@ void Imogene::note_shown(std::uint64_t frame, std::size_t field, const frame::Fr
   shown_.updated = video_timing_->updates() != updates_seen_;
   shown_.words_ahead = 0;
   for (const auto& board : board_modules_) shown_.words_ahead += board->words_ahead();
+  for (const auto& board : quadric_modules_) shown_.words_ahead += board->words_ahead();
   shown_.light_apart = video_timing_->objects_ahead() != table_loader_->tables_ahead();
   shown_.flops = 0;
   shown_.words = 0;
@@ -27,6 +28,8 @@ void Imogene::note_shown(std::uint64_t frame, std::size_t field, const frame::Fr
     shown_.guarded = animation_unit_->guarded();
     shown_.pieces_dropped = animation_unit_->pieces_dropped();
     shown_.triangles = {};
+    shown_.solids = {};
+    for (const auto& computation : quadric_computations_) shown_.solids += computation->counts();
     for (std::size_t k = 0; k < computations_.size(); ++k) {
       shown_.triangles += computations_[k]->triangle_counts();
       if (computation_units_[k]->updates().empty()) continue;
@@ -123,7 +126,13 @@ void Imogene::check_identities() {
     equal("object board", "fragments in = kept + hidden", counters.fragments_in,
           counters.fragments_kept + counters.fragments_hidden);
     equal("object board", "words sent = words loaded", computation_units_[k]->words_sent(),
-          board_modules_[k]->words_loaded());
+          board_modules_[k]->words_loaded() + (quadric_modules_.empty() ? 0 : quadric_modules_[k]->words_loaded()));
+    kept += counters.fragments_kept;
+  }
+  for (const quadric_processor::QuadricBoard& board : quadric_boards_) {
+    const auto& counters = board.counters();
+    equal("quadric board", "fragments in = kept + hidden", counters.fragments_in,
+          counters.fragments_kept + counters.fragments_hidden);
     kept += counters.fragments_kept;
   }
   const auto& decided = decision_.counters();
