@@ -184,6 +184,15 @@ void visit_boards(Visitor& v, run::Modelled& m) {
     o.value("used", {"processors", kCount, "that hold an object"}, m.processors_used);
     o.value("instantiated", {"processors", kCount, "that were simulated"}, m.processors_instantiated);
   });
+  v.later_object("quadric_processors", "of the machine", [&](Visitor& o) {
+    o.value("available", {"processors", kSetting, "that the machine has"}, m.quadrics_available);
+    o.value("used", {"processors", kCount, "that hold a solid"}, m.quadrics_used);
+    o.value("instantiated", {"processors", kCount, "that were simulated"}, m.quadrics_instantiated);
+  });
+  v.later_object("solids", "of the scene", [&](Visitor& o) {
+    o.value("made", {"solids", kCount, "of the scene"}, m.solids_made);
+    o.value("dropped", {"solids", kCount, "that found no processor"}, m.solids_dropped);
+  });
   v.object("lines", "scan lines of the boards", [&](Visitor& o) {
     o.value("total", {"lines", kFormula, "scan lines * boards"}, m.lines_total);
     o.value("evaluated", {"lines", kCount, "on which a board had something to do"}, m.lines_evaluated);
@@ -192,7 +201,8 @@ void visit_boards(Visitor& v, run::Modelled& m) {
     o.value(
         "total",
         {"words", kFormula,
-         "22 for every slot that holds an object, an update; slots that show nothing are parked with 3 words or none"},
+         "of every slot that holds an object, an update: 22 of a triangle; slots that show nothing are parked with 3 "
+         "words or none"},
         m.coefficients_total);
     o.value("sent", {"words", kCount, "that were written"}, m.coefficients_sent);
   });

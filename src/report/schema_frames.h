@@ -83,6 +83,11 @@ void visit_board(Visitor& v, run::FrameFigures& f) {
   v.value("retrace_slack_cycles", {"pixel clocks", kFormula, "left of its vertical retrace"}, f.retrace_slack_cycles);
   v.metric("host_slack_us", {"us", kFormula, "from the last host's last word to its retrace; null: nothing new"},
            f.host_slack_us);
+  v.later_object("solids", "of the scene, a quadric processor each", [&](Visitor& o) {
+    o.value("drawn", {"solids", kCount, "that were loaded"}, f.solids_drawn);
+    o.value("outside", {"solids", kCount, "of which nothing can be in the view volume"}, f.solids_outside);
+    o.value("refused", {"solids", kCount, "left out, because the machine's words cannot show them"}, f.solids_refused);
+  });
 }
 
 template <class Visitor>

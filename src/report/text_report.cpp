@@ -199,6 +199,12 @@ std::string pictures_section(const run::Result& result) {
   if (has_boards(result)) {
     add("more processors for clipped pieces", f.pieces, "processors");
     add("pieces dropped", f.pieces_dropped, "pieces");
+    if (result.modelled.solids_made > 0) {
+      add("made", result.modelled.solids_made, "solids");
+      add("drawn", f.solids_drawn, "solids");
+      add("outside the view", f.solids_outside, "solids");
+      add("left out, of words that cannot show them", f.solids_refused, "solids");
+    }
   } else {
     add("more pieces by clipping", f.pieces, "triangles");
     add("handed to the span unit, children included", f.span.drawn_pieces, "triangles");
@@ -245,6 +251,11 @@ std::string boards_modelled(const run::Modelled& m) {
   text += sentence_line(fmt::format("Object processors: {} in the machine, {} hold an object, {} simulated.",
                                     grouped(m.processors_available), grouped(m.processors_used),
                                     grouped(m.processors_instantiated)));
+  if (m.quadrics_available > 0)
+    text += sentence_line(
+        fmt::format("Quadric processors: {} in the machine, {} hold a solid, {} simulated{}.",
+                    grouped(m.quadrics_available), grouped(m.quadrics_used), grouped(m.quadrics_instantiated),
+                    m.solids_dropped > 0 ? fmt::format("; {} solids without one", m.solids_dropped) : std::string()));
   text += sentence_line(fmt::format("Scan lines of boards: {} of {} had something to do.", grouped(m.lines_evaluated),
                                     grouped(m.lines_total)));
   text += sentence_line(fmt::format("Coefficient words: {} sent of {} that there are.", grouped(m.coefficients_sent),

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "modules/object_processor/microprogram.h"
+#include "modules/quadric_processor/quadric_logic.h"
 #include "modules/shading/shared_load.h"
 #include "src/run/budget.h"
 #include "src/run/delay_budgets.h"
@@ -30,16 +31,48 @@ void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
                          timing.fields > 1 ? "twice (" : "", slices, timing.fields > 1 ? "), for two lines" : "",
                          timing.line.count(), machine.video.columns),
              "object_processor.slice_bits, video.interlaced, video.columns, video.pixel_clock_ns"));
-  budgets.push_back(budget("frame_start", as_real(object_processor::frame_start_cycles()), retrace, "cycles",
-                           "the copy's 8 steps (004, section 5.2.2); vertical retrace", "video.vertical_retrace_us"));
+  budgets.push_back(budget("frame_start", as_real(imogene::board_needs(machine).frame_start), retrace, "cycles",
+                           machine.quadric.per_unit > 0
+                               ? "the copy's 14 steps of a second order processor; vertical retrace"
+                               : "the copy's 8 steps (004, section 5.2.2); vertical retrace",
+                           "video.vertical_retrace_us"));
   const Cycles skew =
       decision_unit::skew(machine.decision_unit.topology, machine.processors(),
                           Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)));
   budgets.push_back(
-      budget("pipeline_skew", as_real(skew + object_processor::frame_start_cycles()), retrace, "cycles",
+      budget("pipeline_skew", as_real(skew + imogene::board_needs(machine).frame_start), retrace, "cycles",
              "the last processor works later than the first by one comparator each (0 in a tree), then "
              "copies; vertical retrace",
              "decision_unit.topology, host.computation_units, host.processors_per_unit, video.vertical_retrace_us"));
+}
+
+// What a quadric processor must do before a line's pixels, in time.
+void add_quadric_budgets(const Imogene& platform, std::vector<Budget>& budgets) {
+  const imogene::Machine& machine = platform.machine();
+  const quadric_processor::QuadricParameters& quadric = machine.quadric;
+  if (quadric.per_unit == 0) return;
+  const video::Timing& timing = platform.timing();
+  budgets.push_back(
+      budget("quadric_line_start", as_real(imogene::board_needs(machine).quadric_line_start),
+             as_real(timing.horizontal_blanking), "cycles",
+             fmt::format(
+                 "{} x (3 x {} slices + 12) to the next line, and {} + 5 to its first pixel; horizontal blanking of {} "
+                 "- {} pixel clocks",
+                 timing.fields, quadric.slices(), quadric.slices(), timing.line.count(), machine.video.columns),
+             "quadric_processor.slice_bits, quadric_processor.word_bits, video.interlaced, video.pixel_clock_ns"));
+  const object_processor::ObjectProcessorParameters& triangles = machine.object_processor;
+  const std::int64_t slice = std::min(quadric.slice_bits, std::max(quadric.word_bits, quadric.plane_bits));
+  budgets.push_back(budget("quadric_adder_delay",
+                           triangles.adder_ns + triangles.adder_ns_per_bit * static_cast<double>(slice),
+                           timing.clock.period_ns(), "ns",
+                           fmt::format("{} + {} a bit x {} bits; the pixel clock's period", triangles.adder_ns,
+                                       triangles.adder_ns_per_bit, slice),
+                           "quadric_processor.slice_bits, object_processor.adder_ns_per_bit, video.pixel_clock_ns"));
+  std::uint64_t used = platform.solid_slots().dropped;
+  for (const auto& owners : platform.solid_slots().boards) used += owners.size();
+  budgets.push_back(budget("quadrics", static_cast<double>(used), static_cast<double>(machine.quadric_processors()),
+                           "processors", "one a solid of the scene; units x quadric processors a unit",
+                           "host.computation_units, quadric_processor.per_unit"));
 }
 
 // What an operation costs is said by these; those of the other cost model are refused.
@@ -80,7 +113,7 @@ void add_host_budgets(Imogene& platform, std::vector<Budget>& budgets) {
   for (const auto& owners : platform.slots().boards) used += owners.size();
   budgets.push_back(budget(
       "processors", static_cast<double>(used + platform.slots().dropped + platform.most_pieces()),
-      static_cast<double>(platform.machine().processors()), "processors",
+      static_cast<double>(platform.machine().triangle_processors()), "processors",
       fmt::format("one an object (triangle) of the scene, and {} for pieces of clipped ones; units x processors a unit",
                   platform.most_pieces()),
       "host.computation_units, host.processors_per_unit"));
@@ -168,6 +201,7 @@ HostLoad host_load(Imogene& platform) {
 std::vector<Budget> imogene_budgets(Imogene& platform) {
   std::vector<Budget> budgets;
   add_display_budgets(platform, budgets);
+  add_quadric_budgets(platform, budgets);
   add_delay_budgets(platform, budgets);
   add_host_budgets(platform, budgets);
   add_table_budgets(platform, budgets);

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include "modules/object_processor/microprogram.h"
+#include "modules/object_processor/second_order_program.h"
+#include "modules/quadric_processor/quadric_logic.h"
+#include "modules/quadric_processor/quadric_words.h"
 #include "modules/shading/loader_budget.h"
 #include "src/run/imogene_budgets.h"
 
@@ -28,6 +31,55 @@ std::uint64_t columns_of(const Imogene& platform) {
   return static_cast<std::uint64_t>(platform.machine().video.columns);
 }
 
+// Cycles of a displayed frame that quadric boards spend to begin lines. An EP2 shows the first line that it was loaded
+// for; an EP1 steps to it.
+std::uint64_t quadric_line_starts(const Imogene& platform) {
+  std::uint64_t cycles = 0;
+  for (std::uint64_t line = 0; line < lines_of(platform); ++line) {
+    const bool first_of_field = line < platform.timing().fields;
+    const std::uint64_t steps = platform.timing().lines_advanced(line) - (first_of_field ? 1 : 0);
+    cycles += quadric_processor::line_start_cycles(platform.machine().quadric, steps).count();
+  }
+  return cycles;
+}
+
+// Of quadric processors, where the machine has any.
+void add_quadric_memories(const imogene::Machine& machine, std::vector<Memory>& memories) {
+  const std::uint64_t processors = machine.quadric_processors();
+  if (processors == 0) return;
+  const auto logic =
+      quadric_processor::quadric_logic(machine.quadric, machine.object_processor, machine.material_bits());
+  for (const quadric_processor::QuadricRam& ram : logic.rams) {
+    if (ram.words == 0) continue;
+    memories.push_back({"quadric loading RAMs: " + ram.name, processors, ram.words, ram.bits_per_word});
+    memories.push_back({"quadric backup RAMs: " + ram.name, processors, ram.words, ram.bits_per_word});
+    if (machine.host.swap == host::Swap::global && ram.replaced > 0)
+      memories.push_back({"quadric backup RAMs: " + ram.name + ", kept", processors, ram.replaced, ram.bits_per_word});
+  }
+  memories.push_back({"quadric processor registers", processors, 1, logic.register_bits});
+  if (machine.quadric.alignment != quadric_processor::Alignment::delay) return;
+  const decision_unit::LinkWidth width{static_cast<std::uint64_t>(machine.object_processor.word_bits),
+                                       static_cast<std::uint64_t>(machine.object_processor.normal_bits),
+                                       machine.material_bits()};
+  memories.push_back({"delay of triangles' fragments", static_cast<std::uint64_t>(machine.host.computation_units),
+                      machine.quadric.latency_cycles(), width.bits()});
+}
+
+void add_quadric_logic(const imogene::Machine& machine, std::vector<Logic>& figures) {
+  const std::uint64_t processors = machine.quadric_processors();
+  if (processors == 0) return;
+  const auto logic =
+      quadric_processor::quadric_logic(machine.quadric, machine.object_processor, machine.material_bits());
+  figures.push_back({"quadric processors: adder slices", processors * logic.adders, "adders"});
+  figures.push_back({"quadric processors: adder width", processors * logic.adder_bits, "bits"});
+  figures.push_back(
+      {"quadric processors: multipliers of root and constant", processors * logic.multipliers, "multipliers"});
+  figures.push_back({"quadric processors: comparators", processors * logic.comparators, "comparators"});
+  figures.push_back({"quadric processors: shifters", processors * logic.shifters, "shifters"});
+  figures.push_back({"quadric processor: stages of the root", logic.root_stages, "stages"});
+  figures.push_back({"quadric processor: later than a triangle", machine.quadric.latency_cycles(), "pixel clocks"});
+}
+
 }  // namespace
 
 std::vector<UnitFigures> unit_figures(Imogene& platform) {
@@ -44,10 +96,16 @@ std::vector<UnitFigures> unit_figures(Imogene& platform) {
   for (std::size_t k = 0; k < platform.board_modules().size(); ++k) {
     const auto& board = *platform.board_modules()[k];
     units.push_back(display_unit(fmt::format("object board {}", k), platform, shown,
-                                 shown * platform.timing().fields * needs.frame_start.count() +
+                                 shown * platform.timing().fields * object_processor::frame_start_cycles().count() +
                                      shown * line_starts * needs.line_start.count() +
                                      board.lines_sent() * columns_of(platform)));
   }
+  for (std::size_t k = 0; k < platform.quadric_modules().size(); ++k)
+    units.push_back(
+        display_unit(fmt::format("quadric board {}", k), platform, shown,
+                     shown * (platform.timing().fields * object_processor::second_order_frame_start_cycles().count() +
+                              quadric_line_starts(platform)) +
+                         platform.quadric_modules()[k]->lines_sent() * columns_of(platform)));
   const std::uint64_t pixels = platform.decision_module().lines_sent() * columns_of(platform);
   for (const char* name : {"decision unit", "shading processor", "video output"})
     units.push_back(display_unit(name, platform, shown, pixels));
@@ -74,7 +132,7 @@ std::vector<LinkFigures> link_figures(Imogene& platform) {
 
 std::vector<Memory> memory_figures(Imogene& platform) {
   const imogene::Machine& machine = platform.machine();
-  const std::uint64_t processors = machine.processors();
+  const std::uint64_t processors = machine.triangle_processors();
   const auto word_bits = static_cast<std::uint64_t>(machine.object_processor.word_bits);
   std::vector<Memory> memories;
   memories.push_back({"loading RAMs", processors * object_processor::kElementaryProcessors, 3, word_bits});
@@ -86,8 +144,10 @@ std::vector<Memory> memory_figures(Imogene& platform) {
   memories.push_back({"object processor registers", processors, 1, logic.register_bits});
   const decision_unit::LinkWidth width{word_bits, static_cast<std::uint64_t>(machine.object_processor.normal_bits),
                                        machine.material_bits()};
-  const auto decision = decision_unit::decision_logic(
-      machine.decision_unit, processors, width, static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
+  const auto decision =
+      decision_unit::decision_logic(machine.decision_unit, machine.processors(), width,
+                                    static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
+  add_quadric_memories(machine, memories);
   memories.push_back({"decision unit registers", 1, decision.register_bits, 1});
   for (const shading::MemorySize& memory : platform.shader().memories())
     memories.push_back({memory.name, memory.instances, memory.words, memory.bits_per_word});
@@ -96,17 +156,19 @@ std::vector<Memory> memory_figures(Imogene& platform) {
 
 std::vector<Logic> logic_figures(Imogene& platform) {
   const imogene::Machine& machine = platform.machine();
-  const std::uint64_t processors = machine.processors();
+  const std::uint64_t processors = machine.triangle_processors();
   const auto logic = object_processor::triangle_processor_logic(machine.object_processor, machine.material_bits());
   const decision_unit::LinkWidth width{static_cast<std::uint64_t>(machine.object_processor.word_bits),
                                        static_cast<std::uint64_t>(machine.object_processor.normal_bits),
                                        machine.material_bits()};
-  const auto decision = decision_unit::decision_logic(
-      machine.decision_unit, processors, width, static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
+  const auto decision =
+      decision_unit::decision_logic(machine.decision_unit, machine.processors(), width,
+                                    static_cast<std::uint64_t>(machine.object_processor.comparator_cycles));
   std::vector<Logic> figures;
   figures.push_back({"object processors: adder slices", processors * logic.adders, "adders"});
   figures.push_back({"object processors: adder width", processors * logic.adder_bits, "bits"});
   figures.push_back({"object processors: shifters", processors * logic.shifters, "shifters"});
+  add_quadric_logic(machine, figures);
   figures.push_back({"decision unit: depth comparators", decision.comparators, "comparators"});
   figures.push_back({"link between processors", width.bits(), "bits"});
   figures.push_back({"link between processors: one direction", decision.link_pins, "pins"});
@@ -123,7 +185,11 @@ std::vector<Logic> logic_figures(Imogene& platform) {
 
 Modelled modelled_figures(Imogene& platform, const scene::Scene& scene, bool model_everything) {
   Modelled m;
-  m.processors_available = platform.machine().processors();
+  m.processors_available = platform.machine().triangle_processors();
+  m.quadrics_available = platform.machine().quadric_processors();
+  for (const auto& owners : platform.solid_slots().boards) m.quadrics_used += owners.size();
+  m.solids_made = scene.solid_count();
+  m.solids_dropped = platform.solid_slots().dropped;
   for (const auto& owners : platform.slots().boards) m.processors_used += owners.size();
   m.objects_made = scene.triangle_count();
   for (const scene::Object& object : scene.objects) m.objects_degenerate += object.mesh.degenerate;
@@ -131,19 +197,32 @@ Modelled modelled_figures(Imogene& platform, const scene::Scene& scene, bool mod
   for (std::size_t k = 0; k < platform.computation_units().size(); ++k) {
     const auto& unit = *platform.computation_units()[k];
     m.coefficients_sent += unit.words_sent();
-    m.coefficients_total += platform.slots().boards[k].size() * object_processor::kWords * unit.updates().size();
+    const std::uint64_t solid_words =
+        quadric_processor::words_of_slot(static_cast<std::size_t>(platform.machine().quadric.caps));
+    m.coefficients_total += (platform.slots().boards[k].size() * object_processor::kWords +
+                             platform.solid_slots().boards[k].size() * solid_words) *
+                            unit.updates().size();
   }
   for (const auto& board : platform.boards()) {
     m.processors_instantiated += model_everything ? board.processors() : board.slots_in_use();
     m.lines_evaluated += board.counters().lines_evaluated;
     m.fragments_in += board.counters().fragments_in;
   }
-  m.lines_total = platform.boards().size() * platform.decision_module().lines_sent();
+  for (const auto& board : platform.quadric_boards()) {
+    m.quadrics_instantiated += model_everything ? board.processors() : board.slots_in_use();
+    m.lines_evaluated += board.counters().lines_evaluated;
+    m.fragments_in += board.counters().fragments_in;
+  }
+  m.lines_total =
+      (platform.boards().size() + platform.quadric_boards().size()) * platform.decision_module().lines_sent();
   m.fragments_kept = platform.decision().counters().fragments_kept;
   m.fragments_hidden = m.fragments_in - m.fragments_kept;
   if (!model_everything) {
     m.left_out.push_back(fmt::format("{} of {} object processors show nothing and are not evaluated",
                                      m.processors_available - m.processors_instantiated, m.processors_available));
+    if (m.quadrics_available > 0)
+      m.left_out.push_back(fmt::format("{} of {} quadric processors show nothing and are not evaluated",
+                                       m.quadrics_available - m.quadrics_instantiated, m.quadrics_available));
     m.left_out.push_back(fmt::format("{} of {} lines of boards hold nothing and are not evaluated",
                                      m.lines_total - m.lines_evaluated, m.lines_total));
   }

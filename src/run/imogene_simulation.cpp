@@ -82,6 +82,9 @@ FrameFigures figures_of(const imogene::ShownFrame& shown, const geometry::SnapGr
   f.degenerate = shown.triangles.degenerate;
   f.outside = shown.triangles.outside;
   f.pieces = shown.triangles.pieces;
+  f.solids_drawn = shown.solids.drawn;
+  f.solids_outside = shown.solids.outside;
+  f.solids_refused = shown.solids.refused;
   f.snap_fraction_bits = (shown.guarded ? grids.guarded : grids.on_screen).fraction_bits;
   return f;
 }
@@ -148,6 +151,15 @@ void add_warnings(imogene::Imogene& platform, const shading::DeferredShader& sha
   if (platform.slots().dropped > 0)
     result.warnings.push_back(std::to_string(platform.slots().dropped) +
                               " objects (triangles) found no processor and are missing from the picture");
+  if (platform.solid_slots().dropped > 0)
+    result.warnings.push_back(fmt::format("{} solids found no quadric processor and are missing from the picture",
+                                          platform.solid_slots().dropped));
+  std::uint64_t refused = 0;
+  for (const FrameFigures& frame : result.frames) refused = std::max(refused, frame.solids_refused);
+  if (refused > 0)
+    result.warnings.push_back(fmt::format(
+        "up to {} solids a frame do not fit the words of the quadric processors and are missing from the picture",
+        refused));
   if (const std::string late = late_tables_warning(platform, result.frames); !late.empty())
     result.warnings.push_back(late);
   if (shader.counters().short_normals > 0)

@@ -92,11 +92,17 @@ struct Modelled {
   std::uint64_t processors_instantiated = 0;  // simulated
   std::uint64_t lines_total = 0;              // scan lines x boards
   std::uint64_t lines_evaluated = 0;          // on which a board had something to do
-  std::uint64_t coefficients_total = 0;       // 22 for every slot that holds an object, an update
+  std::uint64_t coefficients_total = 0;       // of every slot that holds an object, an update: 22 of a triangle
   std::uint64_t coefficients_sent = 0;
   std::uint64_t objects_made = 0;        // triangles of the scene
   std::uint64_t objects_degenerate = 0;  // of zero area as made
   std::uint64_t objects_dropped = 0;     // found no processor
+  // Of quadric processors, as above; solids are the objects that they show.
+  std::uint64_t quadrics_available = 0;
+  std::uint64_t quadrics_used = 0;
+  std::uint64_t quadrics_instantiated = 0;
+  std::uint64_t solids_made = 0;
+  std::uint64_t solids_dropped = 0;
   std::uint64_t fragments_in = 0;
   std::uint64_t fragments_kept = 0;
   std::uint64_t fragments_hidden = 0;
@@ -194,6 +200,9 @@ struct FrameFigures {
   std::uint64_t outside = 0;     // wholly outside the view volume
   std::uint64_t pieces = 0;      // more processors taken by clipping
   std::uint64_t pieces_dropped = 0;
+  std::uint64_t solids_drawn = 0;
+  std::uint64_t solids_outside = 0;  // nothing of them is in the view volume
+  std::uint64_t solids_refused = 0;  // the machine's words cannot show them, and they are left out
   int snap_fraction_bits = 0;
   std::uint64_t covered_pixels = 0;
   std::uint64_t fragments = 0;
