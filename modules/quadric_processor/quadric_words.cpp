@@ -14,9 +14,9 @@ constexpr std::size_t kNormal = 19;
 constexpr std::size_t kNormalOfRoot = 28;
 
 constexpr unsigned kPartBit = 8;
-constexpr unsigned kShiftBit = 16;
+constexpr unsigned kShiftBit = 10;
 constexpr unsigned kShiftBits = 6;
-constexpr unsigned kCapsBit = 24;
+constexpr unsigned kCapsBit = 16;
 
 void put_wide(std::uint64_t value, std::uint32_t* at) {
   at[0] = static_cast<std::uint32_t>(value);

@@ -48,7 +48,7 @@ struct CapWords {
   friend bool operator==(const CapWords&, const CapWords&) = default;
 };
 
-inline constexpr std::size_t kMostCaps = 4;
+inline constexpr std::size_t kMostCaps = 6;
 
 struct QuadricWords {
   SecondOrderWords discriminant;        // word_bits, fraction_bits of them fraction: d 4^k in square depth units
@@ -70,9 +70,9 @@ inline constexpr unsigned kMultiplierInteger = 8;
 // The words of a slot without a solid: its discriminant is -1 everywhere.
 QuadricWords parked_quadric(unsigned word_bits);
 
-// On the bus, in words of 32 bits: a word of control (material 0..7, part 8..9, root_shift 16..21 in two's complement,
-// caps 24.. two bits each); the discriminant's six, two each; l's three, two each; nine of E; three k; then nine of
-// each cap, plane and normal.
+// On the bus, in words of 32 bits: a word of control (material 0..7, part 8..9, root_shift 10..15 in two's complement,
+// caps from 16 on, two bits each); the discriminant's six, two each; l's three, two each; nine of E; three k; then nine
+// of each cap, plane and normal.
 inline constexpr std::size_t kWordsWithoutCaps = 1 + 12 + 6 + 9 + 3;
 inline constexpr std::size_t kWordsOfCap = 6 + 3;
 inline constexpr std::size_t kMostWords = kWordsWithoutCaps + kMostCaps * kWordsOfCap;

@@ -10,7 +10,7 @@
 
 namespace rastertlm::quadric_processor {
 
-inline constexpr std::size_t kRayCaps = 4;
+inline constexpr std::size_t kRayCaps = 6;
 
 // A word along the line, moved to the top of 64 bits: there the wrap of the word is that of the machine's integers.
 struct RayPlane {

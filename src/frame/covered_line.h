@@ -35,7 +35,7 @@ inline constexpr std::uint8_t kNearRoot = 0;
 inline constexpr std::uint8_t kFarRoot = 1;
 inline constexpr std::uint8_t kFace = 2;
 }  // namespace solid_surface
-inline constexpr std::size_t kMostFaces = 5;
+inline constexpr std::size_t kMostFaces = 7;
 
 // What a quadric processor shows wherever it covers a pixel. Its normal is that of FragmentSource, at the middle of the
 // ray, less (near root) or plus (far root) the root times a constant; its depth is no plane.

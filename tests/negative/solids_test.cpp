@@ -33,7 +33,8 @@ TEST_F(SolidsTest, MachinesThatDrawTriangles) {
   for (const char* machine : {"span.toml", "adaptive.toml", "software.toml"})
     refused({"render", machine, "scene.toml", "--out", "o"},
             "this machine draws triangles; solids need quadric processors: platform imogene");
-  refused({"render", "machine.toml", "scene.toml", "--out", "o"}, "this machine has no quadric processors");
+  refused({"render", "machine.toml", "scene.toml", "--out", "o"},
+          "this machine has no quadric processors (quadric_processor.per_unit)");
 }
 
 TEST_F(SolidsTest, BlameAndVectors) {

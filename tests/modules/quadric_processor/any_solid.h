@@ -33,7 +33,7 @@ inline QuadricParameters any_parameters() {
   parameters.word_bits = drawn(40, 61);
   parameters.fraction_bits = drawn(0, 15);
   parameters.plane_bits = drawn(32, 49);
-  parameters.caps = drawn(0, 5);
+  parameters.caps = drawn(0, 7);
   parameters.root_integer_bits = drawn(6, 13);
   parameters.root_guard_bits = drawn(0, 8);
   parameters.multiplier_bits = drawn(16, 33);
