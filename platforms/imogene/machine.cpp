@@ -46,13 +46,13 @@ void check_quadric_line_start(const Machine& machine) {
 
 BoardNeeds board_needs(const Machine& machine) {
   const bool quadrics = machine.quadric.per_unit > 0;
-  return {
-      object_processor::line_start_cycles(machine.object_processor.slices()),
-      quadrics ? quadric_processor::line_start_cycles(machine.quadric, video::timing(machine.video).fields) : Cycles(0),
-      quadrics ? std::max(object_processor::frame_start_cycles(), object_processor::second_order_frame_start_cycles())
-               : object_processor::frame_start_cycles(),
-      decision_unit::skew(machine.decision_unit.topology, machine.processors(),
-                          Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)))};
+  const Cycles frame_start = object_processor::frame_start_cycles();
+  return {object_processor::line_start_cycles(machine.object_processor.slices()),
+          quadrics ? std::max(frame_start, object_processor::second_order_frame_start_cycles()) : frame_start,
+          decision_unit::skew(machine.decision_unit.topology, machine.processors(),
+                              Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles))),
+          quadrics ? quadric_processor::line_start_cycles(machine.quadric, video::timing(machine.video).fields)
+                   : Cycles(0)};
 }
 
 void Machine::declare(parameter::Table& table) {

@@ -47,9 +47,9 @@ struct Machine {
 // What the object boards must do before pixels come, in pixel clocks.
 struct BoardNeeds {
   Cycles line_start;          // the line start microprogram of triangles, once
-  Cycles quadric_line_start;  // of quadrics, where there are any, for the lines of a field that lie between two
   Cycles frame_start;  // the copy of loading RAMs: in every retrace C comes back, which the sums of lines have replaced
   Cycles skew;         // by which the last processor of a pipeline is behind the first; 0 in a tree
+  Cycles quadric_line_start{};  // of quadrics, where there are any: with the steps over the lines of the other field
   Cycles copy() const { return skew + frame_start; }  // until the last processor has copied
 };
 BoardNeeds board_needs(const Machine& machine);
