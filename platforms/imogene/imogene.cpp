@@ -124,10 +124,6 @@ Imogene::Imogene(const Machine& machine, const scene::Scene& scene, const Option
 
 void Imogene::load_materials() {
   Diagnostics diagnostics;
-  if (machine_.quadric.per_unit == 0)
-    for (const Diagnostic& solid :
-         scene::refuse_solids(scene_, "this machine has no quadric processors (quadric_processor.per_unit)"))
-      diagnostics.add(solid);
   if (scene_.materials.size() > static_cast<std::size_t>(machine_.shading.materials))
     diagnostics.add({"", 0, "shading.materials",
                      fmt::format("the scene has {} materials and the shading tables hold {}", scene_.materials.size(),

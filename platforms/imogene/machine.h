@@ -46,7 +46,7 @@ struct Machine {
 
 // What the object boards must do before pixels come, in pixel clocks.
 struct BoardNeeds {
-  Cycles line_start;          // the line start microprogram of triangles, once
+  Cycles line_start;   // the line start microprogram of triangles, once
   Cycles frame_start;  // the copy of loading RAMs: in every retrace C comes back, which the sums of lines have replaced
   Cycles skew;         // by which the last processor of a pipeline is behind the first; 0 in a tree
   Cycles quadric_line_start{};  // of quadrics, where there are any: with the steps over the lines of the other field

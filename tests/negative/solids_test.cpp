@@ -33,8 +33,14 @@ TEST_F(SolidsTest, MachinesThatDrawTriangles) {
   for (const char* machine : {"span.toml", "adaptive.toml", "software.toml"})
     refused({"render", machine, "scene.toml", "--out", "o"},
             "this machine draws triangles; solids need quadric processors: platform imogene");
-  refused({"render", "machine.toml", "scene.toml", "--out", "o"},
-          "this machine has no quadric processors (quadric_processor.per_unit)");
+}
+
+TEST_F(SolidsTest, MachinesWithoutQuadricProcessors) {
+  const Outcome outcome = run({"render", "machine.toml", "scene.toml", "--out", "o"});
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.err,
+              HasSubstr("machine.toml: quadric_processor.per_unit: the scene has 1 solids and the machine 0 "
+                        "quadric processors"));
 }
 
 TEST_F(SolidsTest, BlameAndVectors) {
