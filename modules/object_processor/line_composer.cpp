@@ -16,9 +16,7 @@ LineComposer::LineComposer(const ObjectProcessorParameters& parameters, std::siz
       kernels_(&span_kernels(variant)),
       depth_(columns / 16 + 2),
       winner_(columns / 16 + 2) {
-  for (auto* words : {&normal_, &solid_normal_})
-    for (auto& component : *words) component.resize(columns + frame::FragmentLine::kSpare);
-  for (auto& component : solid_link_) component.resize(columns + frame::FragmentLine::kSpare);
+  for (auto& component : normal_) component.resize(columns + frame::FragmentLine::kSpare);
 }
 
 std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> boards, std::uint32_t line,
@@ -53,14 +51,14 @@ std::uint64_t LineComposer::compose(std::span<const frame::CoveredLine* const> b
   request.material = out.material.data();
   request.object = out.object.data();
   const std::array<std::uint16_t*, 3> link{out.normal_x.data(), out.normal_y.data(), out.normal_z.data()};
-  const bool normalises = word_bits_ <= kNormalisedBits;
+  // Normals of solids are not known yet.
+  const bool normalises = word_bits_ <= kNormalisedBits && solids == 0;
   for (std::size_t i = 0; i < 3; ++i) {
     request.normal[i] = normal_[i].data();
     request.link[i] = normalises ? link[i] : nullptr;
   }
   const std::uint64_t seen = kernels_->resolve(request);
   if (solids > 0) compose_solids(boards, request);
-  // Pixels of solids had been given their normals before.
   if (!normalises) prenormaliser_.line({normal_[0].data(), normal_[1].data(), normal_[2].data()}, link, columns);
   return seen;
 }
@@ -81,40 +79,18 @@ void LineComposer::compare(std::span<const frame::CoveredLine* const> boards, st
     }
 }
 
-// A solid's source has given its pixels material, number and the normals at the middle of the ray; the normals at its
-// surface come here, where any of it is seen.
+// A solid's source has given its pixels material, number and the normals at the middle of the ray; those of its surface
+// come here.
 void LineComposer::compose_solids(std::span<const frame::CoveredLine* const> boards, const ResolveRequest& request) {
-  std::uint32_t mark = first_solid_;
+  SolidNormalRequest normals;
+  normals.mark = first_solid_;
+  normals.winner = request.winner;
+  normals.mark_mask = request.mark_mask;
+  for (std::size_t k = 0; k < 3; ++k) normals.normal[k] = request.normal[k];
   for (const frame::CoveredLine* board : boards)
-    for (std::size_t i = 0; i < board->solid_count; ++i, ++mark) {
-      const frame::SolidSpan& span = board->solids[i];
-      const auto is_seen = [&](std::uint32_t x) { return (request.winner[x] & request.mark_mask) == mark; };
-      std::uint32_t begin = span.begin;
-      std::uint32_t end = span.end;
-      while (begin < end && !is_seen(begin)) ++begin;
-      while (end > begin && !is_seen(end - 1)) --end;
-      if (begin < end) normals_of_solid(span, mark, {begin, end}, request);
-    }
-}
-
-void LineComposer::normals_of_solid(const frame::SolidSpan& span, std::uint32_t mark, const Columns& columns,
-                                    const ResolveRequest& request) {
-  SolidNormalRequest normals{&span, request.line, columns.begin, columns.end, {}};
-  for (std::size_t k = 0; k < 3; ++k) normals.normal[k] = solid_normal_[k].data();
-  kernels_->solid_normal(normals);
-  const bool normalises = request.link[0] != nullptr;
-  const std::size_t count = columns.end - columns.begin;
-  if (normalises)
-    prenormaliser_.line({solid_normal_[0].data(), solid_normal_[1].data(), solid_normal_[2].data()},
-                        {solid_link_[0].data(), solid_link_[1].data(), solid_link_[2].data()}, count);
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t x = columns.begin + i;
-      if ((request.winner[x] & request.mark_mask) != mark) continue;
-      if (normalises)
-        request.link[k][x] = solid_link_[k][i];
-      else
-        request.normal[k][x] = solid_normal_[k][i];
+    for (std::size_t i = 0; i < board->solid_count; ++i, ++normals.mark) {
+      normals.span = &board->solids[i];
+      kernels_->solid_normal(normals);
     }
 }
 

@@ -30,13 +30,7 @@ class LineComposer {
  private:
   void compare(std::span<const frame::CoveredLine* const> boards, std::uint32_t line, std::size_t columns,
                bool in_keys);
-  struct Columns {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;
-  };
   void compose_solids(std::span<const frame::CoveredLine* const> boards, const ResolveRequest& request);
-  void normals_of_solid(const frame::SolidSpan& span, std::uint32_t mark, const Columns& columns,
-                        const ResolveRequest& request);
   void observe(std::span<const frame::CoveredLine* const> boards, bool in_keys, frame::FragmentLine& out) const;
 
   unsigned word_bits_;
@@ -48,13 +42,11 @@ class LineComposer {
   struct alignas(64) Sixteen {
     std::uint32_t words[16];
   };
-  std::vector<Sixteen> depth_;                              // of the nearest so far; or with its mark, where both fit
-  std::vector<Sixteen> winner_;                             // its mark: 0 nobody, else a span, counted from 1
-  std::vector<const frame::FragmentSource*> sources_;       // by mark
-  std::array<std::vector<std::uint32_t>, 3> normal_;        // words of the winners before normalisation
-  std::uint32_t first_solid_ = 1;                           // mark of the first
-  std::array<std::vector<std::uint32_t>, 3> solid_normal_;  // of a solid's span
-  std::array<std::vector<std::uint16_t>, 3> solid_link_;
+  std::vector<Sixteen> depth_;                         // of the nearest so far; or with its mark, where both fit
+  std::vector<Sixteen> winner_;                        // its mark: 0 nobody, else a span, counted from 1
+  std::vector<const frame::FragmentSource*> sources_;  // by mark
+  std::array<std::vector<std::uint32_t>, 3> normal_;   // words of the winners before normalisation
+  std::uint32_t first_solid_ = 1;                      // mark of the first
 };
 
 }  // namespace rastertlm::object_processor

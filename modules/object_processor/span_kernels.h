@@ -72,13 +72,14 @@ struct SolidDrawRequest {
   std::uint32_t* winner = nullptr;
 };
 
-// The normals of a solid's span on the columns [begin, end) of it, before normalisation.
+// The normals of a solid where it is seen, before normalisation: from those at the middle of the ray, which its source
+// has given, to those of its surface.
 struct SolidNormalRequest {
   const frame::SolidSpan* span = nullptr;
-  std::uint32_t line = 0;
-  std::uint32_t begin = 0;
-  std::uint32_t end = 0;
-  std::uint32_t* normal[3] = {};  // written, from column `begin` on
+  std::uint32_t mark = 0;
+  const std::uint32_t* winner = nullptr;  // as ResolveRequest's
+  std::uint32_t mark_mask = 0;
+  std::uint32_t* normal[3] = {};  // read and written, with room for 16 more
 };
 
 struct ResolveRequest {

@@ -23,7 +23,7 @@ QuadricBoard::QuadricBoard(const QuadricParameters& parameters, const QuadricScr
       everything_(visit == Visit::everything),
       kernel_(ray_kernel(variant)),
       bands_(screen.lines),
-      seen_((screen.columns + 63) / 64, 0) {
+      seen_(screen.columns / 64 + 2, 0) {
   if (everything_ && processors_ > 0) {
     writable(processors_ - 1, 0);
     copy();
@@ -190,8 +190,10 @@ std::size_t QuadricBoard::find_pieces(std::uint32_t line) {
     if (slot.parked || !intervals_[number].holds(static_cast<std::int32_t>(line))) continue;
     const LinePieces found = slot.region.columns(static_cast<std::int32_t>(line));
     for (std::size_t i = 0; i < found.count; ++i) {
-      pieces_.push_back({&slot, found.piece[i]});
-      words += static_cast<std::size_t>(found.piece[i].end - found.piece[i].begin) + kRaySpare;
+      // From a multiple of eight on: there is where a byte of bits begins.
+      const Interval columns{found.piece[i].begin & ~7, found.piece[i].end};
+      pieces_.push_back({&slot, columns});
+      words += static_cast<std::size_t>(columns.end - columns.begin) + kRaySpare;
     }
   }
   return words;
@@ -209,6 +211,7 @@ void QuadricBoard::cover(std::uint32_t line, LineRoom& room) {
     room.root.resize(words);
     room.surface.resize(words);
   }
+  std::fill(seen_.begin(), seen_.end(), 0U);
   std::size_t at = 0;
   for (const Piece& piece : pieces_) {
     cover_slot(*piece.slot, line, piece.columns, at, room);
@@ -216,19 +219,7 @@ void QuadricBoard::cover(std::uint32_t line, LineRoom& room) {
   }
   room.covered.solids = room.spans.data();
   room.covered.solid_count = room.spans.size();
-  room.covered.seen_pixels = room.spans.size() > 1 ? seen_of(room) : room.fragments;
-}
-
-// Columns that at least one of several solids covers.
-std::uint64_t QuadricBoard::seen_of(const LineRoom& room) {
-  std::fill(seen_.begin(), seen_.end(), 0U);
-  const auto nothing = static_cast<std::uint32_t>(low_mask(screen_.depth_bits));
-  for (const frame::SolidSpan& span : room.spans)
-    for (std::uint32_t column = span.begin; column < span.end; ++column)
-      seen_[column / 64] |= std::uint64_t{span.depth[column - span.begin] != nothing} << (column % 64);
-  std::uint64_t seen = 0;
-  for (const std::uint64_t bits : seen_) seen += static_cast<std::uint64_t>(std::popcount(bits));
-  return seen;
+  for (const std::uint64_t bits : seen_) room.covered.seen_pixels += static_cast<std::uint64_t>(std::popcount(bits));
 }
 
 void QuadricBoard::cover_slot(const Slot& slot, std::uint32_t line, const Interval& columns, std::size_t at,
@@ -240,6 +231,7 @@ void QuadricBoard::cover_slot(const Slot& slot, std::uint32_t line, const Interv
   request.depth = room.depth.data() + at;
   request.root = room.root.data() + at;
   request.surface = room.surface.data() + at;
+  request.seen = reinterpret_cast<std::uint8_t*>(seen_.data()) + begin / 8;  // the lowest byte of a word comes first
   const std::uint64_t covered = kernel_(request);
   if (covered == 0) return;
   room.fragments += covered;

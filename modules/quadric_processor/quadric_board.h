@@ -102,7 +102,6 @@ class QuadricBoard {
   LineRoom& room(std::uint32_t line);
   std::size_t find_pieces(std::uint32_t line);
   void cover(std::uint32_t line, LineRoom& room);
-  std::uint64_t seen_of(const LineRoom& room);
   void cover_slot(const Slot& slot, std::uint32_t line, const Interval& columns, std::size_t at, LineRoom& room);
   RayRequest request_for(const Slot& slot, std::uint32_t line, std::uint32_t column) const;
 
@@ -122,7 +121,7 @@ class QuadricBoard {
   std::uint32_t band_ = kNoBand;
   std::array<LineRoom, kBandLines> rooms_;
   std::vector<Piece> pieces_;        // of the line that is being covered
-  std::vector<std::uint64_t> seen_;  // a bit a column
+  std::vector<std::uint64_t> seen_;  // of the line that is being covered, a bit a column
   BoardCounters counters_;
 };
 

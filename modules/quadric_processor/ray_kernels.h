@@ -50,8 +50,10 @@ struct RayRequest {
   std::uint32_t* depth = nullptr;
   std::uint32_t* root = nullptr;
   std::uint8_t* surface = nullptr;
+  // A bit a column, set where it covers; room for kRaySpare bits more.
+  std::uint8_t* seen = nullptr;
 };
-inline constexpr std::size_t kRaySpare = 8;
+inline constexpr std::size_t kRaySpare = 16;  // whoever reads them does so by vectors, too
 inline constexpr std::uint8_t kNearPlaneFace = kRayCaps;
 
 // Returns how many columns are covered.

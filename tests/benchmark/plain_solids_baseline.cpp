@@ -1,0 +1,2 @@
+#define PLAIN_VARIANT baseline
+#include "tests/benchmark/plain_solids.inc"
