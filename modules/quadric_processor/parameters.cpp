@@ -38,7 +38,7 @@ void QuadricParameters::declare(parameter::Table& table) {
                 {"bits", "Fraction bits of the discriminant, in square units of depth.", "picture of quadrics"});
   table.integer("quadric_processor.plane_bits", plane_bits, {24, kMostPlaneBits},
                 {"bits", "Width of the first order processors of depth and caps, in units of the depth word.",
-                 "memories[]; which solids are refused"});
+                 "memories[], budgets[] quadric_line_start; which solids are refused"});
   table.integer("quadric_processor.slice_bits", slice_bits, {1, 60},
                 {"bits", "Width of one slice of the pipelined adders of both.",
                  "budgets[] quadric_line_start, quadric_adder_delay"});
@@ -67,7 +67,7 @@ void QuadricParameters::declare(parameter::Table& table) {
                 "which scenes are refused"});
   table.choice("quadric_processor.alignment", alignment, {"early_start", "delay"},
                {"", "How fragments of triangles and quadrics meet: quadrics start earlier, or triangles wait.",
-                "latency, memories[], budgets[] quadric_line_start"});
+                "latency, memories[]"});
   table.integer("quadric_processor.output_cycles", output_cycles, {1, 64},
                 {"cycles", "Register stages behind the root: multiplication and interval logic.", "latency"});
 }

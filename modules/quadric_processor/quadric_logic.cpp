@@ -1,5 +1,8 @@
 #include "modules/quadric_processor/quadric_logic.h"
 
+#include <algorithm>
+
+#include "modules/object_processor/microprogram.h"
 #include "modules/object_processor/prenormaliser.h"
 #include "modules/object_processor/second_order_program.h"
 #include "modules/quadric_processor/quadric_words.h"
@@ -63,8 +66,14 @@ QuadricLogic quadric_logic(const QuadricParameters& parameters,
   return logic;
 }
 
-Cycles line_start_cycles(const QuadricParameters& parameters, std::uint64_t lines) {
-  return object_processor::second_order_line_cycles(parameters.slices(), lines);
+Cycles line_start_cycles(const QuadricParameters& parameters, std::uint64_t lines, bool after_retrace) {
+  return std::max(object_processor::second_order_line_cycles(parameters.slices(), lines - (after_retrace ? 1 : 0)),
+                  object_processor::line_start_cycles(parameters.plane_slices(), lines));
+}
+
+Cycles line_step_cycles(const QuadricParameters& parameters, std::uint64_t lines, bool after_retrace) {
+  return line_start_cycles(parameters, lines, after_retrace) -
+         object_processor::second_order_line_cycles(parameters.slices(), 0);
 }
 
 }  // namespace rastertlm::quadric_processor

@@ -34,7 +34,11 @@ struct QuadricLogic {
 QuadricLogic quadric_logic(const QuadricParameters& parameters,
                            const object_processor::ObjectProcessorParameters& triangles, unsigned material_bits);
 
-// The line start of the EP2, the longest of them, where `lines` lie between the line shown before and this one.
-Cycles line_start_cycles(const QuadricParameters& parameters, std::uint64_t lines);
+// The longest of the line starts of a processor, its EP2's or that of the wide EP1s, which is longer where these have
+// many more slices. `lines` lie between the line that was shown before and this one; of the first line after a retrace,
+// between none and it (1 and more): an EP2 shows the first line that it was loaded for, an EP1 steps to it.
+Cycles line_start_cycles(const QuadricParameters& parameters, std::uint64_t lines, bool after_retrace = false);
+// Of it the steps over lines, before what begins the line.
+Cycles line_step_cycles(const QuadricParameters& parameters, std::uint64_t lines, bool after_retrace = false);
 
 }  // namespace rastertlm::quadric_processor

@@ -170,6 +170,14 @@ stream::Link& Imogene::add_link(const std::string& name, unsigned bits, const Cl
   return links_.emplace_back(name, bits, clock);
 }
 
+std::uint64_t Imogene::resident_solid_bytes() const {
+  const auto solids = solids_of(scene_);
+  std::uint64_t bytes = 0;
+  for (const auto& owners : solid_slots_.boards)
+    for (const host::SlotOwner& owner : owners) bytes += host::resident_bytes(*solids[owner.object]);
+  return bytes;
+}
+
 void Imogene::build_links() {
   const auto units = static_cast<std::size_t>(machine_.host.computation_units);
   const Clock byte_clock =

@@ -95,6 +95,7 @@ class Imogene {
   const host::HostCost& cost() const { return cost_; }
   const host::SlotMap& slots() const { return slots_; }  // of triangles
   const host::SlotMap& solid_slots() const { return solid_slots_; }
+  std::uint64_t resident_solid_bytes() const;  // of the solids that have a processor, in the units' memories
   const host::Animation& animation() const { return animation_; }
   std::uint64_t start_ps() const { return video_timing_->first_frame_ps(); }
   std::uint64_t end_ps() const { return end_ps_; }
@@ -107,7 +108,8 @@ class Imogene {
 
   std::vector<object_processor::ObjectBoard>& boards() { return boards_; }
   std::vector<std::unique_ptr<object_processor::ObjectBoardModule>>& board_modules() { return board_modules_; }
-  // One a computation unit, where the machine has quadric processors. Without a solid no processor of them is simulated.
+  // One a computation unit, where the machine has quadric processors. Without a solid no processor of them is
+  // simulated.
   std::vector<quadric_processor::QuadricBoard>& quadric_boards() { return quadric_boards_; }
   std::vector<std::unique_ptr<quadric_processor::QuadricBoardModule>>& quadric_modules() { return quadric_modules_; }
   std::vector<std::unique_ptr<host::ComputationUnitModule>>& computation_units() { return computation_units_; }

@@ -24,6 +24,11 @@ void check_retrace(const Machine& machine) {
     throw InputError({"", 0, "video.vertical_retrace_us",
                       fmt::format("the frame start takes {} pixel clocks, and the vertical retrace has {}",
                                   needs.frame_start.count(), timing.vertical_retrace.count())});
+  if (const Cycles lead = quadric_lead(machine); needs.frame_start + lead > timing.vertical_retrace)
+    throw InputError({"", 0, "quadric_processor.alignment",
+                      fmt::format("quadrics start their lines {} pixel clocks early, after a frame start of {}, and "
+                                  "the vertical retrace has {}; \"delay\" would do",
+                                  lead.count(), needs.frame_start.count(), timing.vertical_retrace.count())});
   if (machine.host.swap == host::Swap::unconditional && needs.copy() >= timing.frame)
     throw InputError(
         {"", 0, "host.swap",
@@ -120,6 +125,20 @@ Cycles quadric_delay(const Machine& machine) {
   if (machine.quadric.per_unit == 0 || machine.quadric.alignment == quadric_processor::Alignment::early_start)
     return Cycles(0);
   return Cycles(machine.quadric.latency_cycles());
+}
+
+Cycles quadric_lead(const Machine& machine) {
+  if (machine.quadric.per_unit == 0) return Cycles(0);
+  return Cycles(machine.quadric.latency_cycles()) - quadric_delay(machine);
+}
+
+Cycles quadric_line_starts(const Machine& machine) {
+  const video::Timing timing = video::timing(machine.video);
+  Cycles cycles(0);
+  for (std::size_t line = 0; line < static_cast<std::size_t>(machine.video.lines); ++line)
+    cycles = cycles +
+             quadric_processor::line_start_cycles(machine.quadric, timing.lines_advanced(line), line < timing.fields);
+  return cycles;
 }
 
 quadric_processor::DepthRange depth_range(const Machine& machine) {

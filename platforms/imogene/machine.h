@@ -57,6 +57,12 @@ BoardNeeds board_needs(const Machine& machine);
 // By how much quadrics are later than triangles; nothing where they start earlier, or there are none.
 Cycles quadric_delay(const Machine& machine);
 
+// By how much quadrics begin their lines before triangles do; nothing where triangles wait, or there are none.
+Cycles quadric_lead(const Machine& machine);
+
+// Pixel clocks of a displayed frame in which a quadric board begins lines.
+Cycles quadric_line_starts(const Machine& machine);
+
 // The depth words of the near and the far plane.
 quadric_processor::DepthRange depth_range(const Machine& machine);
 

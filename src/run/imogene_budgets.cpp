@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "modules/object_processor/microprogram.h"
+#include "modules/object_processor/second_order_program.h"
 #include "modules/quadric_processor/quadric_logic.h"
 #include "modules/shading/shared_load.h"
 #include "src/run/budget.h"
@@ -43,7 +44,8 @@ void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
       budget("pipeline_skew", as_real(skew + imogene::board_needs(machine).frame_start), retrace, "cycles",
              "the last processor works later than the first by one comparator each (0 in a tree), then "
              "copies; vertical retrace",
-             "decision_unit.topology, host.computation_units, host.processors_per_unit, video.vertical_retrace_us"));
+             "decision_unit.topology, host.computation_units, host.processors_per_unit, quadric_processor.per_unit, "
+             "video.vertical_retrace_us"));
 }
 
 // What a quadric processor must do before a line's pixels, in time.
@@ -52,14 +54,21 @@ void add_quadric_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
   const quadric_processor::QuadricParameters& quadric = machine.quadric;
   if (quadric.per_unit == 0) return;
   const video::Timing& timing = platform.timing();
-  budgets.push_back(
-      budget("quadric_line_start", as_real(imogene::board_needs(machine).quadric_line_start),
-             as_real(timing.horizontal_blanking), "cycles",
-             fmt::format(
-                 "{} x (3 x {} slices + 12) to the next line, and {} + 5 to its first pixel; horizontal blanking of {} "
-                 "- {} pixel clocks",
-                 timing.fields, quadric.slices(), quadric.slices(), timing.line.count(), machine.video.columns),
-             "quadric_processor.slice_bits, quadric_processor.word_bits, video.interlaced, video.pixel_clock_ns"));
+  const Cycles line_start = imogene::board_needs(machine).quadric_line_start;
+  const bool by_discriminant =
+      line_start == object_processor::second_order_line_cycles(quadric.slices(), timing.fields);
+  const std::string what =
+      by_discriminant ? fmt::format("{} x (3 x {} slices + 12) to the next line, and {} + 5 to its first pixel",
+                                    timing.fields, quadric.slices(), quadric.slices())
+                      : fmt::format("{} x (2 x {} slices + 5), of the first order processors of depth", timing.fields,
+                                    quadric.plane_slices());
+  budgets.push_back(budget(
+      "quadric_line_start", as_real(line_start), as_real(timing.horizontal_blanking), "cycles",
+      fmt::format("{}; horizontal blanking of {} - {} pixel clocks", what, timing.line.count(), machine.video.columns),
+      by_discriminant
+          ? "quadric_processor.slice_bits, quadric_processor.word_bits, video.interlaced, video.pixel_clock_ns"
+          : "quadric_processor.slice_bits, quadric_processor.plane_bits, video.interlaced, "
+            "video.pixel_clock_ns"));
   const object_processor::ObjectProcessorParameters& triangles = machine.object_processor;
   const std::int64_t slice = std::min(quadric.slice_bits, std::max(quadric.word_bits, quadric.plane_bits));
   budgets.push_back(budget("quadric_adder_delay",
@@ -135,6 +144,21 @@ std::string limit_sentence(const Budget& b) {
                      b.moved_by);
 }
 
+// Of a displayed frame: copies, line starts and pixels.
+double quadric_board_cycles(const imogene::Machine& machine) {
+  const auto fields = static_cast<double>(video::timing(machine.video).fields);
+  return fields * as_real(object_processor::second_order_frame_start_cycles()) +
+         as_real(imogene::quadric_line_starts(machine)) +
+         static_cast<double>(machine.video.columns) * static_cast<double>(machine.video.lines);
+}
+
+// Whose budget it is, of those that are met by what is wide and many enough.
+const char* unit_of(const std::string& budget) {
+  if (budget == "processors") return "object boards";
+  if (budget == "quadrics") return "quadric boards";
+  return budget.starts_with("quadric_") ? "quadric processors" : "object processors";
+}
+
 Bottleneck find_bottleneck(Imogene& platform, const std::vector<Budget>& budgets, const HostLoad& host) {
   const imogene::Machine& machine = platform.machine();
   const std::size_t fields = platform.timing().fields;
@@ -146,6 +170,9 @@ Bottleneck find_bottleneck(Imogene& platform, const std::vector<Budget>& budgets
   Bottleneck worst;
   take(worst, "object boards", "pixel clocks of a frame",
        static_cast<double>(board_cycles) / as_real(platform.timing().frame));
+  if (machine.quadric.per_unit > 0)
+    take(worst, "quadric boards", "pixel clocks of a frame",
+         quadric_board_cycles(machine) / (as_real(platform.timing().frame) * static_cast<double>(fields)));
   for (const Budget& b : budgets) {
     if (!b.applies || b.available <= 0.0) continue;
     const double utilisation = b.used / b.available;
@@ -160,12 +187,14 @@ Bottleneck find_bottleneck(Imogene& platform, const std::vector<Budget>& budgets
            utilisation);
     else if (b.name == "adder_delay")
       take(worst, "object processors", "adder delay in a pixel clock", utilisation);
+    else if (b.name == "quadric_adder_delay")
+      take(worst, "quadric processors", "adder delay in a pixel clock", utilisation);
     else if (b.name == "table_access")
       take(worst, "shading processor", "a table's access in a pixel clock", utilisation);
     else if (b.name == "table_store")
       take(worst, "table loader", "a table's access between two stores", utilisation);
     else if (!b.fits && !is_rate(machine, b))
-      take(worst, b.name == "processors" ? "object boards" : "object processors", b.name, utilisation);
+      take(worst, unit_of(b.name), b.name, utilisation);
   }
   return worst;
 }
@@ -235,6 +264,7 @@ Answer imogene_answer(Imogene& platform, const std::vector<Budget>& budgets) {
         std::max(answer.initial_load_us, 1e6 * platform.cost().clock().seconds(unit->updates().front().cycles));
   for (const auto& owners : platform.slots().boards)
     answer.initial_load_bytes += host::kResidentTriangleBytes * owners.size();
+  answer.initial_load_bytes += platform.resident_solid_bytes();
 
   answer.bottleneck = find_bottleneck(platform, budgets, host);
   answer.headroom = answer.display_rate_hz / answer.bottleneck.utilisation / answer.required_rate_hz - 1.0;

@@ -31,18 +31,6 @@ std::uint64_t columns_of(const Imogene& platform) {
   return static_cast<std::uint64_t>(platform.machine().video.columns);
 }
 
-// Cycles of a displayed frame that quadric boards spend to begin lines. An EP2 shows the first line that it was loaded
-// for; an EP1 steps to it.
-std::uint64_t quadric_line_starts(const Imogene& platform) {
-  std::uint64_t cycles = 0;
-  for (std::uint64_t line = 0; line < lines_of(platform); ++line) {
-    const bool first_of_field = line < platform.timing().fields;
-    const std::uint64_t steps = platform.timing().lines_advanced(line) - (first_of_field ? 1 : 0);
-    cycles += quadric_processor::line_start_cycles(platform.machine().quadric, steps).count();
-  }
-  return cycles;
-}
-
 // Of quadric processors, where the machine has any.
 void add_quadric_memories(const imogene::Machine& machine, std::vector<Memory>& memories) {
   const std::uint64_t processors = machine.quadric_processors();
@@ -104,7 +92,7 @@ std::vector<UnitFigures> unit_figures(Imogene& platform) {
     units.push_back(
         display_unit(fmt::format("quadric board {}", k), platform, shown,
                      shown * (platform.timing().fields * object_processor::second_order_frame_start_cycles().count() +
-                              quadric_line_starts(platform)) +
+                              imogene::quadric_line_starts(platform.machine()).count()) +
                          platform.quadric_modules()[k]->lines_sent() * columns_of(platform)));
   const std::uint64_t pixels = platform.decision_module().lines_sent() * columns_of(platform);
   for (const char* name : {"decision unit", "shading processor", "video output"})

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "modules/object_processor/microprogram.h"
+#include "modules/object_processor/second_order_program.h"
+#include "modules/quadric_processor/quadric_logic.h"
 #include "modules/shading/loader_budget.h"
 
 namespace rastertlm::run {
@@ -86,6 +89,8 @@ Timeline ImogeneTimeline::close(const Result& result) {
       add_watched(timeline_, timeline_.add_track(Group::unit, watched->name), watched->spans, window());
   for (std::size_t k = 0; k < boards; ++k)
     tracks_.boards.push_back(timeline_.add_track(Group::unit, fmt::format("object board {}", k)));
+  for (std::size_t k = 0; k < platform_.quadric_modules().size(); ++k)
+    tracks_.quadric_boards.push_back(timeline_.add_track(Group::unit, fmt::format("quadric board {}", k)));
   tracks_.decision = timeline_.add_track(Group::unit, "decision unit");
   tracks_.shading = timeline_.add_track(Group::unit, "shading processor");
   tracks_.video = timeline_.add_track(Group::unit, "video output");
@@ -97,6 +102,8 @@ Timeline ImogeneTimeline::close(const Result& result) {
     if (watched->name == "shading to video") tracks_.shaded_link = track;
     if (watched->name == fmt::format("board {} to decision unit", tracks_.board_links.size()))
       tracks_.board_links.push_back(track);
+    if (watched->name == fmt::format("quadric board {} to decision unit", tracks_.quadric_links.size()))
+      tracks_.quadric_links.push_back(track);
   }
   add_display(result);
   add_limits();
@@ -114,7 +121,9 @@ void ImogeneTimeline::add_display(const Result& result) {
                                   : fmt::format("frame {}, field {}", shown.frame, shown.field),
                "animation frame", static_cast<double>(shown.animation_frame));
     for (const std::size_t board : tracks_.boards)
-      add_cycles(board, retrace + needs_.skew, needs_.frame_start, "frame start");
+      add_cycles(board, retrace + needs_.skew, object_processor::frame_start_cycles(), "frame start");
+    for (const std::size_t board : tracks_.quadric_boards)
+      add_cycles(board, retrace + needs_.skew, object_processor::second_order_frame_start_cycles(), "frame start");
     for (std::uint64_t line = shown.field; line < lines; line += timing.fields)
       if (range_.lines.has(line)) add_line(shown, line, result.deadlines.lines.slack_cycles.at(line));
   }
@@ -125,8 +134,7 @@ void ImogeneTimeline::add_line(const VideoFrame& shown, std::uint64_t line, std:
   const Cycles start = retrace_of(shown) + timing.line_start(line);
   const Cycles pixels = retrace_of(shown) + timing.first_pixel(line);
   const Cycles columns(static_cast<std::uint64_t>(platform_.machine().video.columns));
-  const Cycles prenormalised =
-      pixels + Cycles(static_cast<std::uint64_t>(platform_.machine().object_processor.prenormalisation_cycles));
+  const Cycles prenormalised = prenormalised_pixels(shown, line);
   const Cycles decided = prenormalised + platform_.decision_latency();
   const Cycles shaded = pixels + platform_.pixel_latency();
   const std::string name = fmt::format("line {}", line);
@@ -139,9 +147,39 @@ void ImogeneTimeline::add_line(const VideoFrame& shown, std::uint64_t line, std:
     add_cycles(board, pixels, columns, "pixels");
     add_cycles(tracks_.board_links.at(k), prenormalised, columns, name);
   }
+  if (!tracks_.quadric_boards.empty()) add_quadric_line(shown, line, name);
   for (const std::size_t track : {tracks_.decision, tracks_.decided_link}) add_cycles(track, decided, columns, name);
   for (const std::size_t track : {tracks_.shading, tracks_.shaded_link, tracks_.video})
     add_cycles(track, shaded, columns, name);
+}
+
+// When the fragments of a line leave the boards, of triangles and of quadrics together.
+Cycles ImogeneTimeline::prenormalised_pixels(const VideoFrame& shown, std::uint64_t line) const {
+  const imogene::Machine& machine = platform_.machine();
+  return retrace_of(shown) + platform_.timing().first_pixel(line) + imogene::quadric_delay(machine) +
+         Cycles(static_cast<std::uint64_t>(machine.object_processor.prenormalisation_cycles));
+}
+
+// Quadrics step over the lines that are not theirs, begin their line, and work on its pixels: all of it earlier than
+// triangles do, or at the same time where these wait for them.
+void ImogeneTimeline::add_quadric_line(const VideoFrame& shown, std::uint64_t line, const std::string& name) {
+  const video::Timing& timing = platform_.timing();
+  const imogene::Machine& machine = platform_.machine();
+  const Cycles lead = imogene::quadric_lead(machine);
+  const Cycles start = retrace_of(shown) + timing.line_start(line) - lead;
+  const Cycles columns(static_cast<std::uint64_t>(machine.video.columns));
+  const bool first = line < timing.fields;
+  const std::uint64_t passed = timing.lines_advanced(line);
+  const Cycles step = quadric_processor::line_step_cycles(machine.quadric, passed, first);
+  const Cycles both = quadric_processor::line_start_cycles(machine.quadric, passed, first);
+  for (std::size_t k = 0; k < tracks_.quadric_boards.size(); ++k) {
+    const std::size_t board = tracks_.quadric_boards[k];
+    add_cycles(board, start, timing.line, name);
+    add_cycles(board, start, step, "line step");
+    add_cycles(board, start + step, both - step, "line start");
+    add_cycles(board, start + timing.horizontal_blanking, columns, "pixels");
+    add_cycles(tracks_.quadric_links.at(k), prenormalised_pixels(shown, line), columns, name);
+  }
 }
 
 // In each video frame the unit behind the display that is the last to finish what it began at the retrace, or is still

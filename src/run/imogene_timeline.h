@@ -39,10 +39,12 @@ class ImogeneTimeline {
   TimeWindow window_of(const VideoFrame& shown) const;
   void add_display(const Result& result);
   void add_line(const VideoFrame& shown, std::uint64_t line, std::int64_t slack_cycles);
+  void add_quadric_line(const VideoFrame& shown, std::uint64_t line, const std::string& name);
   void add_limits();
   void add_cycles(std::size_t track, Cycles begin, Cycles count, std::string name, const char* key = "",
                   double value = 0.0);
   Cycles retrace_of(const VideoFrame& shown) const;
+  Cycles prenormalised_pixels(const VideoFrame& shown, std::uint64_t line) const;
 
   TimelineRange range_;
   imogene::Imogene& platform_;
@@ -52,7 +54,7 @@ class ImogeneTimeline {
   Timeline timeline_;
   struct DisplayTracks {
     std::size_t frame = 0, line = 0, limits = 0;
-    std::vector<std::size_t> boards, board_links;
+    std::vector<std::size_t> boards, board_links, quadric_boards, quadric_links;
     std::size_t decision = 0, shading = 0, video = 0, decided_link = 0, shaded_link = 0;
   } tracks_;
 };

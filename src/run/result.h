@@ -33,7 +33,7 @@ struct Answer {
   double latency_last_pixel_us = 0.0;
   std::uint64_t initial_load_frames = 0;  // video frames before the first picture
   double initial_load_us = 0.0;           // until the last unit has finished the first frame
-  std::uint64_t initial_load_bytes = 0;   // of meshes, that stay in the units' memories
+  std::uint64_t initial_load_bytes = 0;   // of meshes and solids, that stay in the units' memories
   std::uint64_t torn_frames = 0;          // displayed frames with parts of two, words or light or lines of a screen
   bool display_works = true;              // every unit behind the host keeps its deadlines
   std::vector<std::string> limits;        // one sentence for everything that keeps the machine from its rate

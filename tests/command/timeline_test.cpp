@@ -43,6 +43,15 @@ TEST_F(TimelineTest, OfInterlacedVideoWithTablesThatChange) {
   expect_good_timeline();
 }
 
+TEST_F(TimelineTest, OfQuadricBoardsIsTheirReport) {
+  render("imogene_quadrics.toml", "solids.toml", {"--frames", "2", "--timeline-frames", "0..1"});
+  expect_good_timeline();
+  render("imogene_quadrics.toml", "solids.toml",
+         {"--frames", "2", "--timeline-frames", "0..1", "--set", "video.interlaced=true", "--set",
+          "quadric_processor.alignment=delay"});
+  expect_good_timeline();
+}
+
 TEST_F(TimelineTest, OfTheQuadraticMachineIsItsReport) {
   render("quadratic.toml", "sphere_168.toml", {"--frames", "3", "--timeline-frames", "0..2"});
   expect_good_timeline();

@@ -92,6 +92,33 @@ def check_links(checks, tracks, report):
             checks.true(abs(by_time - link["bytes"]) <= 1e-6 * by_time + 1, f"{link['name']}: time for {by_time} bytes, the report has {link['bytes']}")
 
 
+def check_quadrics(checks, tracks, report):
+    """Fragments of triangles and of quadrics leave their boards together. Those of quadrics have been in a pipeline before
+    that is longer by so many clocks, and a line's steps, start and pixels follow each other in its time."""
+    later = [entry["count"] for entry in report["logic"] if entry["name"] == "quadric processor: later than a triangle"]
+    if not later:
+        return
+    triangles = [event[1:3] for event in tracks["links", "board 0 to decision unit"]]
+    boards = [name for group, name in tracks if group == "units" and name.startswith("quadric board")]
+    checks.true(len(boards) > 0, "quadric boards have tracks")
+    clock_ps = (triangles[0][1] - triangles[0][0]) / report["video"]["columns"]
+    for board in boards:
+        fragments = [event[1:3] for event in tracks["links", f"{board} to decision unit"]]
+        checks.equal(fragments, triangles, f"{board}: fragments beside those of triangles")
+        pixels = [event for event in tracks["units", board] if event[0] == "pixels"]
+        for event, (begin, _) in zip(pixels, fragments):
+            clocks = round((begin - event[1]) / clock_ps)  # a register stage of pre-normalisation is the last
+            checks.true(clocks == later[0] + 1, f"{board}: fragments {clocks} clocks behind their pixels")
+        starts = [event for event in tracks["units", board] if event[0] == "line start"]
+        steps = [event for event in tracks["units", board] if event[0] == "line step"]
+        lines = [event for event in tracks["units", board] if event[0].startswith("line ") and event[0] not in ("line start", "line step")]
+        checks.equal([len(starts), len(lines)], [len(pixels), len(pixels)], f"{board}: a start and pixels a line")
+        for start, line, event in zip(starts, lines, pixels):
+            checks.true(line[1] <= start[1] and start[2] <= event[1] and event[2] == line[2], f"{board}: {line[0]}")
+        begun = {start[1] for start in starts}
+        checks.true(all(step[2] in begun for step in steps), f"{board}: a line start follows each step")
+
+
 def check_frames(checks, tracks, report):
     fields = 2 if report["video"]["interlaced"] else 1
     frames = tracks["picture", "frame"]
@@ -157,6 +184,7 @@ def main():
     else:
         check_units(checks, tracks, report)
         check_links(checks, tracks, report)
+        check_quadrics(checks, tracks, report)
         if "deadlines" in report:
             check_frames(checks, tracks, report)
             check_limits(checks, tracks, report)

@@ -1,0 +1,327 @@
+// Budgets, memories and cycles of quadric processors, each worked out here from the machine's numbers, and each moved
+// by its parameter.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "tests/platforms/imogene/simulation.h"
+#include "tests/platforms/imogene/solid_scenes.h"
+
+namespace rastertlm::test {
+namespace {
+
+constexpr std::uint64_t kFrame = 333'333;  // pixel clocks of 60 ns
+constexpr std::uint64_t kRetrace = 10'000;
+
+// The numbers that a test changes; by default those of the machine file.
+struct Machine {
+  std::uint64_t units = 8, triangles = 128, quadrics = 64;
+  std::uint64_t word = 48, plane = 40, slice = 12, caps = 6, factor = 24;
+  std::uint64_t root_integer = 10, root_guard = 6, output = 2;
+  std::uint64_t normal = 12;
+  bool half_unit = true, scaled = true, delay = false, kept = true;
+  std::uint64_t columns = 64, lines = 64, fields = 1;
+
+  std::vector<std::string> set() const {
+    const auto value = [](const char* key, std::uint64_t number) { return fmt::format("{}={}", key, number); };
+    const std::string q = "quadric_processor.";
+    std::vector<std::string> all{value("host.computation_units", units), value("host.processors_per_unit", triangles)};
+    for (const auto& [key, number] : std::map<std::string, std::uint64_t>{{"per_unit", quadrics},
+                                                                          {"word_bits", word},
+                                                                          {"plane_bits", plane},
+                                                                          {"slice_bits", slice},
+                                                                          {"caps", caps},
+                                                                          {"multiplier_bits", factor},
+                                                                          {"root_integer_bits", root_integer},
+                                                                          {"root_guard_bits", root_guard},
+                                                                          {"output_cycles", output}})
+      all.push_back(value((q + key).c_str(), number));
+    all.push_back(q + "root_reading=" + (half_unit ? "half_unit" : "floor"));
+    all.push_back(q + "scaling=" + (scaled ? "object" : "fixed"));
+    all.push_back(q + "alignment=" + (delay ? "delay" : "early_start"));
+    all.push_back(q + "on_refusal=drop");
+    all.push_back(value("object_processor.normal_bits", normal));
+    all.push_back(value("video.columns", columns));
+    all.push_back(value("video.lines", lines));
+    all.push_back(std::string("video.interlaced=") + (fields == 2 ? "true" : "false"));
+    all.push_back(std::string("host.swap=") + (kept ? "global" : "unconditional"));
+    return all;
+  }
+
+  std::uint64_t slices(std::uint64_t bits) const { return (bits + slice - 1) / slice; }
+  std::uint64_t line() const { return (kFrame - kRetrace) / (lines / fields); }
+  std::uint64_t latency() const { return root_integer + root_guard + output; }
+  std::uint64_t link() const { return 24 + 3 * normal + 4; }
+  // Of an EP2, to a line `passed` lines on.
+  std::uint64_t line_start(std::uint64_t passed) const {
+    const std::uint64_t n = slices(word);
+    return n + 5 + passed * (3 * n + 12);
+  }
+  // After a retrace the EP2 shows the line that it was loaded for, and line 1, of the second field, is one on; the EP1s
+  // of depth step to it, which takes longer.
+  std::uint64_t first_line_start(std::uint64_t line_number) const {
+    return std::max(line_start(line_number), (line_number + 1) * (2 * slices(plane) + 5));
+  }
+};
+
+class QuadricBudgetTest : public SimulationTest {
+ protected:
+  run::Result result(const Machine& machine, const std::vector<std::string>& more = {},
+                     std::uint64_t frames = 2) const {
+    std::vector<std::string> set = machine.set();
+    set.insert(set.end(), more.begin(), more.end());
+    return simulate(kQuadricMachine, written("scene.toml", SolidScene(71, SolidScene::View::perspective).text()),
+                    {.set = set, .frames = frames, .reference = false, .pictures = false})
+        .result;
+  }
+};
+
+void expect_budget(const run::Result& result, const std::string& name, double used, double available) {
+  const run::Budget& budget = named(result.budgets, name);
+  EXPECT_DOUBLE_EQ(budget.used, used) << name;
+  EXPECT_DOUBLE_EQ(budget.available, available) << name;
+  EXPECT_EQ(budget.fits, used <= available) << name;
+}
+
+// An accumulator of n slices: the RAM's output and the sum, a carry between two slices, and the registers that hold
+// back what comes too early: of slice i those of n - 1 - i clocks.
+std::uint64_t accumulator(std::uint64_t bits, std::uint64_t slice) {
+  const std::uint64_t n = (bits + slice - 1) / slice;
+  return 2 * bits + (n - 1) + slice * (n * (n - 1) / 2);
+}
+
+void expect_memories(const run::Result& result, const Machine& m) {
+  const std::uint64_t processors = m.units * m.quadrics;
+  const auto words = [&](const std::string& name, std::uint64_t count, std::uint64_t bits, std::uint64_t kept) {
+    for (const char* ram : {"loading", "backup"}) {
+      const std::string full = fmt::format("quadric {} RAMs: {}", ram, name);
+      if (count > 0) {
+        EXPECT_EQ(named(result.memories, full).total_bits(), processors * count * bits) << full;
+      }
+    }
+    const std::string again = "quadric backup RAMs: " + name + ", kept";
+    if (kept > 0 && m.kept)
+      EXPECT_EQ(named(result.memories, again).total_bits(), processors * kept * bits) << again;
+    else
+      EXPECT_THROW(named(result.memories, again), std::runtime_error) << again;
+  };
+  words("discriminant", 6, m.word, 3);                             // V0, Dy and D0 are replaced line by line
+  words("depth and caps", 3 * (1 + m.caps), m.plane, 1 + m.caps);  // C of each
+  words("normal", 9, 24, 3);
+  words("normal of root", 3, m.factor, 0);
+  words("normals of caps", 3 * m.caps, 24, 0);
+  words("control", 1, 4 + 2 + 6 + 2 * m.caps, 0);  // material, part, shift, what is kept at each cap
+
+  // A stage of the root holds what it has found, its remainder and what nobody has taken yet: at most 3 words of the
+  // result's width and 2 bits; at least the bits of the first and the last.
+  const std::uint64_t root_bits = m.root_integer + m.root_guard;
+  const std::uint64_t others = 2 * accumulator(m.word, m.slice) + (1 + m.caps) * accumulator(m.plane, m.slice) +
+                               3 * accumulator(24, 12) + m.output * m.link();
+  const std::uint64_t registers = named(result.memories, "quadric processor registers").bits_per_word;
+  EXPECT_GE(registers, others + root_bits * root_bits);
+  EXPECT_LE(registers, others + root_bits * (3 * root_bits + 2));
+  EXPECT_EQ(named(result.memories, "quadric processor registers").total_bits(), processors * registers);
+  if (m.delay)
+    EXPECT_EQ(named(result.memories, "delay of triangles' fragments").total_bits(), m.units * m.latency() * m.link());
+  else
+    EXPECT_THROW(named(result.memories, "delay of triangles' fragments"), std::runtime_error);
+}
+
+void expect_logic(const run::Result& result, const Machine& m) {
+  const std::uint64_t processors = m.units * m.quadrics;
+  const std::uint64_t stages = m.root_integer + m.root_guard;
+  // Two accumulators of the EP2, one of each plane and of each component of the normal; a subtracter a stage; the two
+  // depths; the three components less or plus the root's part.
+  const std::uint64_t adders = 2 * m.slices(m.word) + (1 + m.caps) * m.slices(m.plane) + 3 * 2 + stages + 2 + 3;
+  EXPECT_EQ(named(result.logic, "quadric processors: adder slices").count, processors * adders);
+  std::uint64_t bits = 2 * m.word + (1 + m.caps) * m.plane + 3 * 24 + 2 * m.plane + 3 * 24;
+  bits += stages * (stages + 1) / 2 + 2 * stages;  // stage i subtracts from a remainder of i + 2 bits
+  EXPECT_EQ(named(result.logic, "quadric processors: adder width").count, processors * bits);
+  EXPECT_EQ(named(result.logic, "quadric processors: multipliers of root and constant").count, 3 * processors);
+  // Entry against every cap and the near plane, exit against every cap and the far one, entry against exit, and depth
+  // on the link.
+  EXPECT_EQ(named(result.logic, "quadric processors: comparators").count, processors * (2 * (m.caps + 1) + 2));
+  // Normals of 24 bits are shifted by up to 24 - 1 - (normal - 1): as many shifters of 1, 2, 4, .. as that has bits.
+  std::uint64_t shifters = 0;
+  while ((24 - m.normal) >> shifters != 0) ++shifters;
+  EXPECT_EQ(named(result.logic, "quadric processors: shifters").count,
+            processors * (3 * shifters + (m.scaled ? 1 : 0)));
+  EXPECT_EQ(named(result.logic, "quadric processor: stages of the root").count, stages);
+  EXPECT_EQ(named(result.logic, "quadric processor: later than a triangle").count, m.latency());
+  std::uint64_t levels = 0;
+  while ((1ULL << levels) < m.units * (m.triangles + m.quadrics)) ++levels;
+  EXPECT_EQ(named(result.logic, "pixel to level: latency").count, 1 + (m.delay ? m.latency() : 0) + levels + 10);
+  EXPECT_EQ(named(result.logic, "decision unit: depth comparators").count, m.units * (m.triangles + m.quadrics) - 1);
+}
+
+void expect_units(const run::Result& result, const Machine& m, std::uint64_t frames) {
+  std::uint64_t starts = 0;
+  for (std::uint64_t line = 0; line < m.lines; ++line)
+    starts += line < m.fields ? m.first_line_start(line) : m.line_start(m.fields);
+  for (std::uint64_t board = 0; board < m.units; ++board) {
+    const run::UnitFigures& unit = named(result.units, fmt::format("quadric board {}", board));
+    EXPECT_EQ(unit.cycles, frames * m.fields * kFrame);
+    EXPECT_EQ(unit.busy, frames * (m.fields * 14 + starts + m.lines * m.columns));
+    EXPECT_EQ(unit.busy + unit.starved + unit.blocked + unit.idle, unit.cycles);
+    const run::LinkFigures& link = named(result.links, fmt::format("quadric board {} to decision unit", board));
+    EXPECT_EQ(link.bits, m.link());
+    EXPECT_EQ(link.bytes, frames * m.lines * m.columns * m.link() / 8);
+  }
+}
+
+void expect_all(const run::Result& result, const Machine& m, std::uint64_t frames = 2) {
+  expect_budget(result, "quadrics", SolidScene::kSolids, static_cast<double>(m.units * m.quadrics));
+  expect_budget(result, "quadric_line_start", static_cast<double>(m.line_start(m.fields)),
+                static_cast<double>(m.line() - m.columns));
+  // 4 ns a bit of the widest slice.
+  const std::uint64_t widest = std::min(m.slice, std::max(m.word, m.plane));
+  expect_budget(result, "quadric_adder_delay", 4.0 * static_cast<double>(widest), 60.0);
+  expect_budget(result, "frame_start", 14, static_cast<double>(kFrame - m.line() * (m.lines / m.fields)));
+  expect_memories(result, m);
+  expect_logic(result, m);
+  expect_units(result, m, frames);
+}
+
+TEST_F(QuadricBudgetTest, AreThoseOfTheMachineFile) { expect_all(result({}), {}); }
+
+TEST_F(QuadricBudgetTest, EachParameterMovesItsOwn) {
+  const std::vector<std::pair<const char*, std::function<void(Machine&)>>> changes{
+      {"units", [](Machine& m) { m.units = 5; }},
+      {"quadrics", [](Machine& m) { m.quadrics = 3; }},
+      {"word", [](Machine& m) { m.word = 57; }},
+      {"plane", [](Machine& m) { m.plane = 45; }},
+      {"narrow slices", [](Machine& m) { m.slice = 7; }},
+      {"wide slices", [](Machine& m) { m.slice = 60; }},
+      {"caps", [](Machine& m) { m.caps = 2; }},
+      {"no caps", [](Machine& m) { m.caps = 0; }},
+      {"multiplier", [](Machine& m) { m.factor = 19; }},
+      {"root",
+       [](Machine& m) {
+         m.root_integer = 12;
+         m.root_guard = 3;
+       }},
+      {"output", [](Machine& m) { m.output = 5; }},
+      {"floor", [](Machine& m) { m.half_unit = false; }},
+      {"fixed scale", [](Machine& m) { m.scaled = false; }},
+      {"delay", [](Machine& m) { m.delay = true; }},
+      {"short normals", [](Machine& m) { m.normal = 9; }},
+      {"one copy", [](Machine& m) { m.kept = false; }},
+      {"screen",
+       [](Machine& m) {
+         m.columns = 128;
+         m.lines = 80;
+       }},
+      {"interlaced", [](Machine& m) { m.fields = 2; }}};
+  for (const auto& [name, change] : changes) {
+    SCOPED_TRACE(name);
+    Machine machine;
+    change(machine);
+    const std::vector<std::string> fast{"host.sustained_mflops=50.0"};
+    expect_all(result(machine, fast), machine);
+  }
+}
+
+// Adders of 48 bits take 192 ns, and the machine's clock is 60: what limits it is named.
+TEST_F(QuadricBudgetTest, WhatLimitsIsNamed) {
+  Machine wide;
+  wide.slice = 48;
+  const run::Result slow = result(wide);
+  EXPECT_EQ(slow.answer.bottleneck.unit, "quadric processors");
+  EXPECT_DOUBLE_EQ(slow.answer.bottleneck.utilisation, 192.0 / 60);
+  EXPECT_FALSE(slow.answer.display_works);
+  // The line start of words in slices of a bit, before pixels that leave it little time: 48 + 5 + 3 x 48 + 12 cycles
+  // and 512 pixels of 631 - ... do not fit and are refused.
+  Machine narrow;
+  narrow.slice = 2;
+  narrow.columns = narrow.lines = 512;
+  EXPECT_EQ(narrow.line(), 631U);
+  EXPECT_EQ(narrow.line_start(1), 113U);
+  const run::Result busy = result(narrow, {"host.sustained_mflops=500.0", "host.link_mbit_per_s=1000.0"});
+  EXPECT_EQ(busy.answer.bottleneck.unit, "quadric boards");
+  const std::uint64_t cycles = 14 + narrow.first_line_start(0) + 511 * narrow.line_start(1) + 512 * 512;
+  EXPECT_NEAR(busy.answer.bottleneck.utilisation, static_cast<double>(cycles) / kFrame, 1e-9);
+  narrow.slice = 1;
+  EXPECT_THROW(result(narrow), InputError);
+}
+
+// A discriminant of 16 bits in slices of two is soon begun, and depths of 48 bits are not: an EP1's line start of 2 x
+// 24
+// + 5 cycles is the longer one.
+TEST_F(QuadricBudgetTest, TheLineStartIsThatOfTheSlowestOfAProcessor) {
+  Machine m;
+  m.word = 16;
+  m.plane = 48;
+  m.slice = 2;
+  EXPECT_EQ(m.line_start(1), 8U + 5 + 3 * 8 + 12);
+  const run::Result shallow = result(m, {"quadric_processor.fraction_bits=4"});
+  EXPECT_DOUBLE_EQ(named(shallow.budgets, "quadric_line_start").used, 2 * 24 + 5);
+  EXPECT_EQ(named(shallow.units, "quadric board 0").busy, 2 * (14 + 64 * 53 + 64 * 64));
+}
+
+// 1 / (62.5 Hz x 50 ns) are 320,000 clocks: 30 lines of 10,666, and 20 of retrace. The copy takes 14 of them, and
+// quadrics begin their lines 18 before triangles do.
+TEST_F(QuadricBudgetTest, AnEarlyStartFitsTheRetraceOrIsRefused) {
+  const std::vector<std::string> bare{"video.refresh_hz=62.5", "video.pixel_clock_ns=50.0",
+                                      "video.vertical_retrace_us=0.0"};
+  Machine m;
+  m.lines = 30;
+  try {
+    result(m, bare);
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("quadrics start their lines 18 pixel clocks early, after a frame start of "
+                        "14, and the vertical retrace has 20"),
+              std::string::npos)
+        << error.what();
+  }
+  m.delay = true;
+  EXPECT_DOUBLE_EQ(named(result(m, bare).budgets, "frame_start").available, 20);
+}
+
+// Whole slots for what is drawn: 31 words and 9 for each cap; 13 to park what has left.
+TEST_F(QuadricBudgetTest, WordsSentAreThoseOfSlots) {
+  for (const std::uint64_t caps : {5U, 6U}) {
+    Machine m;
+    m.caps = caps;
+    const run::Result all = result(m, {"host.sustained_mflops=50.0"}, 3);
+    const std::uint64_t slot = 31 + 9 * caps;
+    for (const run::FrameFigures& frame : all.frames)
+      EXPECT_EQ(frame.words_sent, 10 * slot + 22 * SolidScene::kTriangles) << frame.frame;
+  }
+  // A ball that orbits out of view, and one that stays: the second is sent once.
+  const std::string file =
+      written("leaves.toml", scene_of("[[object]]\ntype = \"sphere\"\nradius = 0.5\nmaterial = \"glaze\"\ntranslate = "
+                                      "[0.0, -3.0, 0.0]\n[[object.animation]]\ntype = \"orbit\"\naxis = [0.0, 0.0, "
+                                      "1.0]\ndeg_per_frame = 60.0\n[[object]]\ntype = \"sphere\"\nradius = "
+                                      "0.3\nmaterial = \"slate\"\n"));
+  const std::vector<std::string> set{"video.columns=64", "video.lines=64", "host.sustained_mflops=50.0"};
+  const run::Result moved = simulate(kQuadricMachine, file, {.set = set, .frames = 7, .reference = false}).result;
+  constexpr std::uint64_t kSlot = 31 + 9 * 6;
+  // At 0 and 180 degrees it is in the middle; 60 degrees aside it is 2.6 from it, more than the picture's half height
+  // of tan 15 degrees x 8.5 = 2.28 and its own radius; beyond the middle 11.5, 3.08.
+  std::vector<std::uint64_t> words;
+  for (const run::FrameFigures& frame : moved.frames) words.push_back(frame.words_sent);
+  EXPECT_EQ(words[0], 2 * kSlot);
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    const bool drawn = moved.frames[k].solids_drawn == 2, before = moved.frames[k - 1].solids_drawn == 2;
+    EXPECT_EQ(words[k], drawn ? kSlot : before ? 13U : 0U) << k;
+  }
+  const run::Result all =
+      simulate(kQuadricMachine, file,
+               {.set = {"video.columns=64", "video.lines=64", "host.sustained_mflops=50.0", "host.send=all"},
+                .frames = 2,
+                .reference = false})
+          .result;
+  EXPECT_EQ(all.frames[1].words_sent, moved.frames[1].words_sent + kSlot);
+}
+
+// Ten numbers of a matrix, four of each plane and a material, of four bytes each; 76 bytes a triangle.
+TEST_F(QuadricBudgetTest, TheFirstLoadHasTheSolids) {
+  std::uint64_t planes = 0;
+  for (const int of_one : SolidScene::kPlanes) planes += static_cast<std::uint64_t>(of_one);
+  EXPECT_EQ(result({}).answer.initial_load_bytes, 4 * (10 * 11 + 4 * planes) + 76 * SolidScene::kTriangles);
+}
+
+}  // namespace
+}  // namespace rastertlm::test
