@@ -13,6 +13,15 @@ static_assert(kRayCaps == kMostCaps && kNearPlaneFace + 1 == frame::kMostFaces);
 static_assert(static_cast<int>(RayCapKeeps::side) == static_cast<int>(CapKeeps::side));
 static_assert(static_cast<int>(RayKind::all) == static_cast<int>(RayPart::all));
 
+namespace {
+
+// Room for what is written of columns.
+std::size_t words_of(const Interval& columns) {
+  return static_cast<std::size_t>(columns.end - columns.begin) + kRaySpare;
+}
+
+}  // namespace
+
 QuadricBoard::QuadricBoard(const QuadricParameters& parameters, const QuadricScreen& screen, std::uint32_t processors,
                            std::uint32_t first_processor, Visit visit, VectorVariant variant)
     : parameters_(parameters),
@@ -184,18 +193,22 @@ QuadricBoard::LineRoom& QuadricBoard::room(std::uint32_t line) {
 // Returns how many words they need.
 std::size_t QuadricBoard::find_pieces(std::uint32_t line) {
   pieces_.clear();
-  std::size_t words = 0;
   for (const std::uint32_t number : bands_.active(line)) {
     const Slot& slot = slots_[number];
     if (slot.parked || !intervals_[number].holds(static_cast<std::int32_t>(line))) continue;
     const LinePieces found = slot.region.columns(static_cast<std::int32_t>(line));
     for (std::size_t i = 0; i < found.count; ++i) {
-      // From a multiple of eight on: there is where a byte of bits begins.
+      // From a multiple of eight on: there is where a byte of bits begins. What lies before it may be of the slot's
+      // other piece: no column is covered twice.
       const Interval columns{found.piece[i].begin & ~7, found.piece[i].end};
-      pieces_.push_back({&slot, columns});
-      words += static_cast<std::size_t>(columns.end - columns.begin) + kRaySpare;
+      if (i > 0 && columns.begin < pieces_.back().columns.end)
+        pieces_.back().columns.end = columns.end;
+      else
+        pieces_.push_back({&slot, columns});
     }
   }
+  std::size_t words = 0;
+  for (const Piece& piece : pieces_) words += words_of(piece.columns);
   return words;
 }
 
@@ -215,7 +228,7 @@ void QuadricBoard::cover(std::uint32_t line, LineRoom& room) {
   std::size_t at = 0;
   for (const Piece& piece : pieces_) {
     cover_slot(*piece.slot, line, piece.columns, at, room);
-    at += static_cast<std::size_t>(piece.columns.end - piece.columns.begin) + kRaySpare;
+    at += words_of(piece.columns);
   }
   room.covered.solids = room.spans.data();
   room.covered.solid_count = room.spans.size();
