@@ -50,14 +50,19 @@ void check_quadric_line_start(const Machine& machine) {
 }  // namespace
 
 BoardNeeds board_needs(const Machine& machine) {
-  const bool quadrics = machine.quadric.per_unit > 0;
-  const Cycles frame_start = object_processor::frame_start_cycles();
-  return {object_processor::line_start_cycles(machine.object_processor.slices()),
-          quadrics ? std::max(frame_start, object_processor::second_order_frame_start_cycles()) : frame_start,
-          decision_unit::skew(machine.decision_unit.topology, machine.processors(),
-                              Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles))),
-          quadrics ? quadric_processor::line_start_cycles(machine.quadric, video::timing(machine.video).fields)
-                   : Cycles(0)};
+  BoardNeeds needs{object_processor::line_start_cycles(machine.object_processor.slices()),
+                   object_processor::frame_start_cycles(),
+                   decision_unit::skew(machine.decision_unit.topology, machine.processors(),
+                                       Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)))};
+  if (machine.quadric.per_unit == 0) return needs;
+  const video::Timing timing = video::timing(machine.video);
+  needs.frame_start = std::max(needs.frame_start, object_processor::second_order_frame_start_cycles());
+  needs.quadric_line_start = quadric_processor::line_start_cycles(machine.quadric, timing.fields);
+  for (std::size_t line = 0; line < timing.fields; ++line)
+    needs.quadric_first_lines.at(line) =
+        quadric_lead(machine) +
+        quadric_processor::line_start_cycles(machine.quadric, timing.lines_advanced(line), true);
+  return needs;
 }
 
 void Machine::declare(parameter::Table& table) {

@@ -1,6 +1,7 @@
 // The I.M.O.G.E.N.E. machine as a machine file describes it: the units' parameters joined into one table.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -50,6 +51,8 @@ struct BoardNeeds {
   Cycles frame_start;  // the copy of loading RAMs: in every retrace C comes back, which the sums of lines have replaced
   Cycles skew;         // by which the last processor of a pipeline is behind the first; 0 in a tree
   Cycles quadric_line_start{};  // of quadrics, where there are any: with the steps over the lines of the other field
+  // Of the first line of each field, with what they begin earlier than triangles' are.
+  std::array<Cycles, 2> quadric_first_lines{};
   Cycles copy() const { return skew + frame_start; }  // until the last processor has copied
 };
 BoardNeeds board_needs(const Machine& machine);

@@ -41,7 +41,7 @@ void visit_initial_load(Visitor& v, run::Answer& a) {
   v.value("initial_load_us", {"us", kCount, "until the last computation unit has finished the first frame"},
           a.initial_load_us);
   v.value("initial_load_bytes",
-          {"bytes", kCount, "of meshes that cross the links once, each to the unit that keeps it"},
+          {"bytes", kCount, "of meshes and solids that cross the links once, each to the unit that keeps it"},
           a.initial_load_bytes);
 }
 

@@ -24,8 +24,10 @@ double microseconds(const Clock& clock, std::int64_t cycles) {
 
 Slack line_slack(const video::Timing& timing, const BoardNeeds& needs, std::size_t line, Cycles tables_wait) {
   Cycles has = timing.horizontal_blanking;
-  Cycles needed = needs.line_start * timing.lines_advanced(line);
-  if (line < timing.fields) {
+  const bool first = line < timing.fields;
+  Cycles needed = std::max(needs.line_start * timing.lines_advanced(line),
+                           first ? needs.quadric_first_lines.at(line) : needs.quadric_line_start);
+  if (first) {
     has += timing.vertical_retrace;
     needed += needs.copy();
   }

@@ -169,6 +169,18 @@ void expect_units(const run::Result& result, const Machine& m, std::uint64_t fra
   }
 }
 
+// What is left of a line: of the first of a retrace, whose programs begin early, behind the copy.
+void expect_deadlines(const run::Result& result, const Machine& m) {
+  const std::uint64_t blanking = m.line() - m.columns;
+  const std::uint64_t retrace = kFrame - m.line() * (m.lines / m.fields);
+  for (std::uint64_t line = 0; line < m.lines; ++line) {
+    const std::uint64_t left = line < m.fields
+                                   ? retrace + blanking - 14 - m.first_line_start(line) - (m.delay ? 0 : m.latency())
+                                   : blanking - m.line_start(m.fields);
+    EXPECT_EQ(result.deadlines.lines.slack_cycles.at(line), static_cast<std::int64_t>(left)) << line;
+  }
+}
+
 void expect_all(const run::Result& result, const Machine& m, std::uint64_t frames = 2) {
   expect_budget(result, "quadrics", SolidScene::kSolids, static_cast<double>(m.units * m.quadrics));
   expect_budget(result, "quadric_line_start", static_cast<double>(m.line_start(m.fields)),
@@ -180,6 +192,7 @@ void expect_all(const run::Result& result, const Machine& m, std::uint64_t frame
   expect_memories(result, m);
   expect_logic(result, m);
   expect_units(result, m, frames);
+  expect_deadlines(result, m);
 }
 
 TEST_F(QuadricBudgetTest, AreThoseOfTheMachineFile) { expect_all(result({}), {}); }

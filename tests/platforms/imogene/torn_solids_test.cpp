@@ -4,6 +4,7 @@
 #include "modules/object_processor/line_composer.h"
 #include "modules/quadric_processor/quadric_board.h"
 #include "src/run/inputs.h"
+#include "tests/platforms/imogene/host_timeline.h"
 #include "tests/platforms/imogene/simulation.h"
 #include "tests/platforms/imogene/solid_scenes.h"
 
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t kColumns = 144;
 constexpr std::size_t kLines = 112;
 constexpr std::uint64_t kSlotWords = 31 + 9 * 6;
-constexpr std::uint64_t kPark = 13;
+constexpr std::uint64_t kBusCycles = 1500;
 constexpr std::uint64_t kAllWords = ~0ULL;
 
 // A unit with nothing but solids, and its board, without the machine around them.
@@ -43,14 +44,23 @@ class LoneUnit {
     loads_ = computation_->set_up(host::Animation(resident_, false).frame_work(animation_frame, initial));
     written_ = 0;
     std::uint64_t words = 0;
-    for (const host::QuadricLoad& load : loads_) words += load.park ? kPark : kSlotWords;
+    for (const host::QuadricLoad& load : loads_) words += load.park ? quadric_processor::kParkWords : kSlotWords;
+    return words;
+  }
+  // How many of them have been written `cycles` host cycles after the arithmetic began: each slot's words follow the
+  // arithmetic up to it, 1500 cycles each on the bus.
+  std::uint64_t words_by(std::uint64_t cycles) const {
+    std::uint64_t words = 0;
+    for (std::size_t i = 0; i < loads_.size(); ++i)
+      for (std::uint64_t left = loads_[i].park ? quadric_processor::kParkWords : kSlotWords; left > 0; --left, ++words)
+        if (arithmetic(computation_->before()[i].flops()) + kBusCycles * (words + 1) > cycles) return words;
     return words;
   }
   // The first `words` of them stand in the loading RAMs.
   void write_up_to(std::uint64_t words) {
     std::uint64_t before = 0;
     for (const host::QuadricLoad& load : loads_) {
-      const std::uint64_t size = load.park ? kPark : kSlotWords;
+      const std::uint64_t size = load.park ? quadric_processor::kParkWords : kSlotWords;
       const quadric_processor::QuadricImage image = quadric_processor::to_image(load.words);
       const std::uint64_t from = std::max(before, written_), to = std::min(before + size, words);
       if (from < to) board_.write_words(load.slot, from - before, std::span(image).subspan(from - before, to - from));
@@ -102,11 +112,7 @@ class TornSolidsTest : public SimulationTest {
     return written("turned.toml", scene_of(solids));
   }
   static std::vector<std::string> set(const std::string& swap) {
-    return {"video.columns=144",
-            "video.lines=112",
-            "host.computation_units=1",
-            "host.sustained_mflops=1.0",
-            "host.bus_cycles_per_word=1500",
+    return {"video.columns=144", "video.lines=112", "host.computation_units=1", "host.bus_cycles_per_word=1500",
             "host.swap=" + swap};
   }
   // The pose that follows the one that is shown in frame k, or nothing.
@@ -156,6 +162,28 @@ TEST_F(TornSolidsTest, AreTheWordsThatHadBeenWritten) {
   EXPECT_GE(within_a_slot, 3U);
   EXPECT_GE(updates, 2U);
   EXPECT_GE(simulated.result.answer.torn_frames, torn);
+}
+
+// Which these are follows from time: the messages about twelve objects to one unit, its report and the plan,
+// arithmetic, and words on the bus. A copy stops the bus for 14 pixel clocks, 17 host cycles, which moves no word into
+// another frame.
+TEST_F(TornSolidsTest, AreTheWordsThatThereWasTimeFor) {
+  constexpr std::uint64_t kFrames = 12;
+  const std::string file = scene();
+  const Simulated simulated =
+      simulate(kQuadricMachine, file, {.set = set("unconditional"), .frames = kFrames, .reference = false});
+  const run::Inputs inputs = run::read_inputs(kQuadricMachine, file, set("unconditional"));
+  LoneUnit unit(inputs);
+  unit.set_up(0, true);
+  unit.set_up(1, false);
+  UpdateWork work;
+  work.message_bytes = 8 + 64 * 12;
+  work.units.resize(1);
+  const std::uint64_t begun = timeline(work, {-1}).fits.at(0);
+  std::uint64_t torn = 0;
+  for (std::size_t k = 1; k < kFrames && simulated.result.frames[k].animation_frame == 0; ++k, ++torn)
+    EXPECT_EQ(simulated.result.frames[k].words_ahead, unit.words_by(k * kFramePs / kHostPs - begun)) << k;
+  EXPECT_GE(torn, 2U);
 }
 
 // With one swap for all the same machine shows whole pictures, at the same rate.
