@@ -34,7 +34,7 @@ report::VectorsTiming timing_of(const imogene::Imogene& platform) {
   t.line_cycles = video.line.count();
   t.horizontal_blanking_cycles = video.horizontal_blanking.count();
   const imogene::BoardNeeds needs = imogene::board_needs(machine);
-  t.frame_start_cycles = needs.frame_start.count();
+  t.frame_start_cycles = object_processor::frame_start_cycles().count();  // of what the microprogram lists
   t.line_start_cycles = needs.line_start.count();
   t.prenormalisation_cycles = count(machine.object_processor.prenormalisation_cycles);
   t.decision_cycles = platform.decision_latency().count();
@@ -115,6 +115,14 @@ void check_field(std::uint64_t field, bool interlaced) {
     throw InputError(Diagnostic{"--field", 0, "", "a frame of this machine has no fields: video.interlaced is false"});
 }
 
+// Their times are those of triangles that wait for nothing.
+void check_alignment(const imogene::Machine& machine) {
+  if (imogene::quadric_delay(machine) > Cycles(0))
+    throw InputError({"", 0, "quadric_processor.alignment",
+                      "vectors knows no triangles that wait for quadrics; quadric_processor.per_unit = 0 or "
+                      "\"early_start\" would do"});
+}
+
 ProcessorRange range_of(const std::optional<ProcessorRange>& asked, std::uint64_t processors) {
   if (!asked) return {0, processors - 1};
   if (asked->last >= processors)
@@ -175,7 +183,8 @@ report::VectorsManifest write_vectors(const run::Inputs& inputs, const VectorsOp
                                       const report::OutputDirectory& directory) {
   const imogene::Machine& machine = inputs.content->object_machine("vectors");
   inputs.content->refuse_solids("vectors");
-  const ProcessorRange range = range_of(options.processors, machine.processors());
+  const ProcessorRange range = range_of(options.processors, machine.triangle_processors());
+  check_alignment(machine);
   check_field(options.field, machine.video.interlaced);
   FrameRecorder recorder(options.frame, {options.field, machine.video.interlaced ? 2U : 1U},
                          static_cast<std::size_t>(machine.video.lines));

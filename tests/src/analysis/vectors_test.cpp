@@ -218,5 +218,23 @@ TEST_F(WholeVectorsTest, OfSomeProcessorsAlone) {
   EXPECT_EQ(text_of("decision.csv"), decision) << "the picture is the whole machine's";
 }
 
+// A machine that has quadric processors, too, and no use for them: the triangles' are as ever.
+TEST_F(WholeVectorsTest, OfAMachineWithQuadricProcessors) {
+  const std::string machine = RASTERTLM_SOURCE_DIR "/configs/machines/imogene_quadrics.toml";
+  const std::vector<std::string> small{"video.columns=64", "video.lines=64"};
+  const Outcome outcome = vectors(machine, kShippedTeapot, small);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(number("frame_start_cycles"), 8U);
+  EXPECT_EQ(number("decision_cycles"), 11U);  // of 1536 processors
+  EXPECT_EQ(reread().exit_code, 0);
+  EXPECT_THAT(vectors(machine, kShippedTeapot, small, {"--processors", "1020-1024"}).err,
+              HasSubstr("there is no processor 1024: the machine has 1024"));
+  std::vector<std::string> late = small;
+  late.emplace_back("quadric_processor.alignment=delay");
+  const Outcome refused = vectors(machine, kShippedTeapot, late);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("quadric_processor.alignment: vectors knows no triangles that wait"));
+}
+
 }  // namespace
 }  // namespace rastertlm::test
