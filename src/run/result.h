@@ -97,18 +97,18 @@ struct Modelled {
   std::uint64_t objects_made = 0;        // triangles of the scene
   std::uint64_t objects_degenerate = 0;  // of zero area as made
   std::uint64_t objects_dropped = 0;     // found no processor
-  // Of quadric processors, as above; solids are the objects that they show.
-  std::uint64_t quadrics_available = 0;
-  std::uint64_t quadrics_used = 0;
-  std::uint64_t quadrics_instantiated = 0;
-  std::uint64_t solids_made = 0;
-  std::uint64_t solids_dropped = 0;
   std::uint64_t fragments_in = 0;
   std::uint64_t fragments_kept = 0;
   std::uint64_t fragments_hidden = 0;
   std::vector<std::string> left_out;  // sentences: what was not simulated because the scene does not need it
   std::uint64_t exact_wanted = 0;     // exact pictures, of each reference and field
   std::uint64_t exact_made = 0;       // of them, those whose view was not that of the picture before
+  // Of quadric processors, as of triangle processors; solids are the objects that they show.
+  std::uint64_t quadrics_available = 0;
+  std::uint64_t quadrics_used = 0;
+  std::uint64_t quadrics_instantiated = 0;
+  std::uint64_t solids_made = 0;
+  std::uint64_t solids_dropped = 0;
 };
 
 // What is left of the display's deadlines, where it is least.

@@ -107,7 +107,7 @@ struct Hosts {
         AnimationUnitModule::Timeline{&swapped, [this] { return displayed_frame; }}, below(0));
     for (std::size_t k = 0; k < count; ++k) {
       units.emplace_back(("computation_unit_" + std::to_string(k)).c_str(), static_cast<std::uint32_t>(k),
-                         computations[k], *cost, fed(k + 1).size(), swapped,
+                         computations[k], ComputationUnitModule::Solids{}, *cost, fed(k + 1).size(), swapped,
                          ComputationUnitModule::Links{&up_links[k], below(k + 1), &bus_links[k]}, copies);
       units[k].ready.bind(ready[k]);
       units[k].bus.bind(boards[k].bus);
