@@ -22,7 +22,8 @@ const char* meaning(const std::string& reference, bool interpolates) {
     return "the same given the snapped vertices: where edges are snapped, no pixel of it may be missing or extra";
   if (reference == "true")
     return "perspective-correct normals, local viewer and lights: the error of the model as well";
-  if (reference == "sphere") return "the spheres that the meshes stand for: the error of the meshes as well";
+  if (reference == "sphere")
+    return "the spheres themselves, where meshes stand for them: the error of the meshes as well";
   return "";
 }
 

@@ -96,6 +96,11 @@ reference::MeterOptions meter_options(const std::string& reference, const std::o
   return {reference, depth, options.perceptual_pixels_per_degree};
 }
 
+void take_objects(const frame::Frame& shown, frame::ExactFrame& spheres) {
+  for (std::size_t pixel = 0; pixel < spheres.object.size(); ++pixel)
+    if (spheres.object[pixel] != 0 && shown.object[pixel] != 0) spheres.object[pixel] = shown.object[pixel];
+}
+
 void ExactPictures::keep(const std::string& key, const std::function<frame::ExactFrame()>& render, KeptPicture& kept,
                          const KeptPicture* other) {
   ++wanted_;

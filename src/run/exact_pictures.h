@@ -38,13 +38,16 @@ struct KeptPicture {
   frame::ExactFrame picture;
 };
 
+// A sphere has no triangles to tell apart: pixels that both show are of the same thing.
+void take_objects(const frame::Frame& shown, frame::ExactFrame& spheres);
+
 class ExactPictures {
  public:
   ExactPictures(const scene::Scene& scene, ExactStore* store) : scene_(scene), store_(store) {}
   // The picture of the scene in that pose, into `kept`; where that holds it already, or `other` does, nothing is made.
   void render(const scene::Pose& pose, const reference::RenderOptions& options, KeptPicture& kept,
               const KeptPicture* other = nullptr);
-  // Of the spheres that its meshes stand for.
+  // Of its spheres, solids or what meshes stand for.
   void render_spheres(const scene::Pose& pose, std::size_t columns, std::size_t lines, KeptPicture& kept);
 
   // How many pictures were wanted, and how many of them were not there yet.

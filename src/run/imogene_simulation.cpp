@@ -13,6 +13,7 @@
 #include "src/frame/fields.h"
 #include "src/parameter/table.h"
 #include "src/reference/error_meter.h"
+#include "src/reference/sphere_renderer.h"
 #include "src/run/background_warning.h"
 #include "src/run/deadlines.h"
 #include "src/run/exact_pictures.h"
@@ -35,18 +36,29 @@ class Exact {
     for (const reference::RenderOptions& one : exact_options(machine))
       pictures_.push_back(
           {one, reference::ErrorMeter(meter_options(reference::to_string(one.kind), depth_words(machine), options))});
+    if (reference::is_of_spheres(scene))
+      spheres_.emplace(Picture{pictures_.front().options,
+                               reference::ErrorMeter(meter_options("sphere", depth_words(machine), options))});
   }
 
   void show(const imogene::ShownFrame& shown) {
     for (Picture& picture : pictures_) {
       source_.render(shown.pose, picture.options, picture.of_pose);
-      if (fields_ > 1) frame::copy_lines(picture.of_pose.picture, shown.field, fields_, picture.woven);
+      weave(shown.field, picture);
     }
+    if (!spheres_) return;
+    source_.render_spheres(shown.pose, spheres_->options.columns, spheres_->options.lines, spheres_->of_pose);
+    weave(shown.field, *spheres_);
   }
   std::vector<reference::ErrorFigures> errors(const frame::Frame& shown) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<reference::ErrorFigures> errors;
     for (Picture& picture : pictures_) errors.push_back(picture.meter.measure(shown, on_screen(picture)));
+    if (spheres_) {
+      frame::ExactFrame& exact = fields_ > 1 ? spheres_->woven : spheres_->of_pose.picture;
+      take_objects(shown, exact);
+      errors.push_back(spheres_->meter.measure(shown, exact));
+    }
     time_ += std::chrono::steady_clock::now() - start;
     return errors;
   }
@@ -61,12 +73,16 @@ class Exact {
     KeptPicture of_pose = {};
     frame::ExactFrame woven = {};  // where the video is interlaced
   };
+  void weave(std::size_t field, Picture& picture) const {
+    if (fields_ > 1) frame::copy_lines(picture.of_pose.picture, field, fields_, picture.woven);
+  }
   const frame::ExactFrame& on_screen(const Picture& picture) const {
     return fields_ > 1 ? picture.woven : picture.of_pose.picture;
   }
   ExactPictures source_;
   std::size_t fields_;
   std::vector<Picture> pictures_;
+  std::optional<Picture> spheres_;  // where every object is one
   HostTime time_{};
 };
 

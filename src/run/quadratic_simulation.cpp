@@ -122,13 +122,10 @@ class Exact {
     time_ += std::chrono::steady_clock::now() - start;
     return figures;
   }
-  // Pixels that both show are of the same thing: a sphere has no triangles to tell apart.
   reference::ErrorFigures sphere_errors(const scene::Pose& pose, const frame::Frame& shown) {
     Kind& spheres = kinds_.back();
     source_.render_spheres(pose, options_[0].columns, options_[0].lines, spheres.exact);
-    std::vector<std::uint32_t>& object = spheres.exact.picture.object;
-    for (std::size_t pixel = 0; pixel < object.size(); ++pixel)
-      if (object[pixel] != 0 && shown.object[pixel] != 0) object[pixel] = shown.object[pixel];
+    take_objects(shown, spheres.exact.picture);
     return measured(spheres, shown);
   }
 

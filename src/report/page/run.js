@@ -218,7 +218,7 @@ function errorSection() {
         'light at every pixel in double: the error of interpolation and arithmetic together'],
     ['snapped', 'the same given the snapped vertices'],
     ['true', 'perspective-correct normals, local viewer and lights'],
-    ['sphere', 'the spheres that the meshes stand for'],
+    ['sphere', 'the spheres themselves, where meshes stand for them'],
   ];
   section('Distance from the exact picture',
       table(['>frame', 'reference', '>missing', '>extra', '>other triangle', '>largest', '>RMSE', '>PSNR', '>with outlines', '>over one level'],

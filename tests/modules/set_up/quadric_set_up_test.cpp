@@ -153,19 +153,6 @@ TEST(QuadricSetUp, Operations) {
   }
 }
 
-// A unit of depth is a pixel: the box of the view is as deep as its words.
-View parallel_view(const QuadricFormat& format) {
-  const auto columns = static_cast<double>(format.words.columns), lines = static_cast<double>(format.words.lines);
-  const double deep = std::ldexp(static_cast<double>(far_depth(format.words) - near_depth(format.words)),
-                                 -format.depth_fraction_bits());
-  const geometry::Viewport viewport{format.words.columns, format.words.lines};
-  const glm::dmat4 clip = glm::orthoRH_ZO(-0.5, columns - 0.5, -0.5, lines - 0.5, 0.0, deep);
-  return {viewport, glm::inverse(geometry::eye_to_screen(clip, viewport))};
-}
-PlacedSolid ball(const glm::dvec3& at, const glm::dvec3& radii) {
-  return placed_solid(kSolidShapes[0], glm::scale(glm::translate(glm::dmat4(1.0), at), radii));
-}
-
 QuadricFormat narrow_format() {
   QuadricFormat format = default_format({512, 512});
   format.parameters.word_bits = 24;

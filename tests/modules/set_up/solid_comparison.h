@@ -28,6 +28,19 @@ using quadric_processor::QuadricPixelLogic;
 using quadric_processor::QuadricWords;
 using quadric_processor::Surface;
 
+// A unit of depth is a pixel: the box of the view is as deep as its words.
+inline View parallel_view(const QuadricFormat& format) {
+  const auto columns = static_cast<double>(format.words.columns), lines = static_cast<double>(format.words.lines);
+  const double deep = std::ldexp(static_cast<double>(far_depth(format.words) - near_depth(format.words)),
+                                 -format.depth_fraction_bits());
+  const geometry::Viewport viewport{format.words.columns, format.words.lines};
+  const glm::dmat4 clip = glm::orthoRH_ZO(-0.5, columns - 0.5, -0.5, lines - 0.5, 0.0, deep);
+  return {viewport, glm::inverse(geometry::eye_to_screen(clip, viewport))};
+}
+inline PlacedSolid ball(const glm::dvec3& at, const glm::dvec3& radii) {
+  return placed_solid(kSolidShapes[0], glm::scale(glm::translate(glm::dmat4(1.0), at), radii));
+}
+
 // The solid's forms in depth words, and how far rounding may move them.
 class ExactSolid {
  public:
