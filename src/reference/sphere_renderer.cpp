@@ -18,11 +18,13 @@ struct Sphere {
   glm::dvec3 centre;
   double radius;
   std::uint16_t material;
+  bool solid;  // cut by the near plane, it shows the cut; a mesh shows its sides from outside alone
 };
 
 struct Hit {
   std::size_t sphere = 0;
   double along = 0.0;  // of the ray from the near to the far plane
+  bool cut = false;    // the ray starts inside
 };
 
 std::vector<Sphere> spheres_of(const scene::Scene& scene, const scene::Pose& pose) {
@@ -30,12 +32,12 @@ std::vector<Sphere> spheres_of(const scene::Scene& scene, const scene::Pose& pos
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const scene::Object& object = scene.objects[i];
     spheres.push_back({glm::dvec3(pose.object_to_eye[i][3]), object.sphere_radius,
-                       object.solid ? object.solid->material : object.mesh.material.front()});
+                       object.solid ? object.solid->material : object.mesh.material.front(), object.solid.has_value()});
   }
   return spheres;
 }
 
-// From `from` on; the nearest side that the ray enters by, within 0..1.
+// From `from` on; the nearest side that the ray enters by, within 0..1, or where it starts inside a solid.
 std::optional<Hit> nearest(const std::vector<Sphere>& spheres, const glm::dvec3& from, const glm::dvec3& ray) {
   std::optional<Hit> best;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
@@ -46,7 +48,9 @@ std::optional<Hit> nearest(const std::vector<Sphere>& spheres, const glm::dvec3&
     const double discriminant = half_b * half_b - a * c;
     if (discriminant < 0.0) continue;
     const double along = (-half_b - std::sqrt(discriminant)) / a;
-    if (along >= 0.0 && along <= 1.0 && (!best || along < best->along)) best = {i, along};
+    const bool cut = spheres[i].solid && c < 0.0;
+    if (cut && (!best || best->along > 0.0)) best = {i, 0.0, true};
+    if (!cut && along >= 0.0 && along <= 1.0 && (!best || along < best->along)) best = {i, along, false};
   }
   return best;
 }
@@ -90,7 +94,7 @@ frame::ExactFrame render_spheres(const scene::Scene& scene, const scene::Pose& p
         const scene::Material& m = scene.materials[sphere.material];
         const geometry::Reflectance surface{m.ambient * m.colour, m.diffuse * m.colour, glm::dvec3(m.specular),
                                             m.exponent};
-        const glm::dvec3 normal = (point - sphere.centre) / sphere.radius;
+        const glm::dvec3 normal = hit->cut ? glm::dvec3(0, 0, 1) : (point - sphere.centre) / sphere.radius;
         const glm::dvec3 viewer = viewer_at_eye ? geometry::normalised<double>(-point) : glm::dvec3(0, 0, 1);
         glm::dvec3 shine(0.0);
         levels = glm::clamp(

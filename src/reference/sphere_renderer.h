@@ -13,9 +13,9 @@ namespace rastertlm::reference {
 bool is_of_spheres(const scene::Scene& scene);
 
 // The spheres of the scene at `pose`, which was made for this screen's aspect ratio: each pixel's ray hits the nearest
-// between the near and the far plane; lights where they are, the viewer at the eye where the view is perspective.
-// Levels are 255 times the light, clamped to 0..255; ExactFrame::object is the sphere's number, from 1; depth is 0 at
-// the near plane and 1 at the far one.
+// between the near and the far plane, and a solid that the near plane cuts shows the cut; lights where they are, the
+// viewer at the eye where the view is perspective. Levels are 255 times the light, clamped to 0..255;
+// ExactFrame::object is the sphere's number, from 1; depth is 0 at the near plane and 1 at the far one.
 frame::ExactFrame render_spheres(const scene::Scene& scene, const scene::Pose& pose, std::size_t columns,
                                  std::size_t lines);
 

@@ -13,7 +13,7 @@ void warn_of_background(Result& result) {
   result.warnings.push_back(
       empty->facing == 0
           ? fmt::format("frame {} shows nothing but the background: no triangle of the scene that faces the viewer "
-                        "is in view",
+                        "is in view, nor any solid",
                         empty->frame)
           : fmt::format("frame {} shows nothing but the background, although {} triangles face the viewer",
                         empty->frame, empty->facing));

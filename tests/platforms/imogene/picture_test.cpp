@@ -52,6 +52,28 @@ TEST_F(PictureTest, CountsThePixelsThatItShows) {
   EXPECT_EQ(simulated.result.modelled.fragments_kept, covered);
 }
 
+// Scenes of spheres are compared with the spheres too: of a solid that is the picture itself, of a mesh what the mesh
+// lacks as well. Pixels that both show are of the same thing.
+TEST_F(PictureTest, ComparesSpheresWithSpheres) {
+  const std::string solid = "[[object]]\ntype = \"sphere\"\nmaterial = \"glaze\"\nradius = 2.0\n";
+  for (const bool interlaced : {false, true}) {
+    RunOptions options{.set = {"video.columns=200", "video.lines=150", "quadric_processor.per_unit=1",
+                               interlaced ? "video.interlaced=true" : "video.interlaced=false"}};
+    const Simulated exact = show(scene_of(solid), options), mesh = show(scene_of(kSphere), options);
+    const reference::ErrorFigures of_solid = error_of(exact.result.frames[0], "sphere");
+    const reference::ErrorFigures of_mesh = error_of(mesh.result.frames[0], "sphere");
+    EXPECT_EQ(of_solid.covered_missing + of_solid.covered_extra, 0U);
+    EXPECT_GT(of_solid.compared, 8'000U);
+    EXPECT_GT(of_mesh.covered_missing, 50U);
+    EXPECT_EQ(of_mesh.compared + of_mesh.covered_missing, of_solid.compared);
+    EXPECT_EQ(of_mesh.wrong_object, 0U);
+    EXPECT_EQ(error_of(mesh.result.frames[0], "snapped").covered_missing, 0U);
+    EXPECT_NEAR(of_solid.rmse_level, error_of(exact.result.frames[0], "true").rmse_level, 1e-4);
+  }
+  const Simulated other = show(scene_of(std::string(kSphere) + "scale = [1.0, 1.0, 1.1]\n"), {});
+  EXPECT_THROW(error_of(other.result.frames[0], "sphere"), std::runtime_error);
+}
+
 // Package glmark2-data. The file is in a cube from -1 to 1.
 TEST_F(PictureTest, ShowsAMeshFileOnAMachineLargeEnough) {
   constexpr std::uint64_t kFaces = 69'666;  // lines of the file that begin with f, all triangles

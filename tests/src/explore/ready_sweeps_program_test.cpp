@@ -340,15 +340,71 @@ TEST_F(ReadySweepTest, SparcStation20Lights) {
   EXPECT_NEAR(total(small, highlight, ours), 1538.0, 0.2 * 1538.0);
 }
 
+// A solid has the words of one processor, whatever its picture; a mesh 22 a triangle that faces the viewer.
+TEST_F(ReadySweepTest, QuadricOrTriangles) {
+  const explore::SweepTable table = table_of("quadric_or_triangles");
+  const auto of = [&](const char* path, const char* sphere) { return figure(table, path, {sphere}); };
+  const char *host = "budgets[host.update].used", *words = "images[0].words_sent";
+  const char *error = "errors[sphere].worst.rmse_level", *missing = "errors[sphere].worst.covered_missing";
+  EXPECT_EQ(of(words, "one quadric"), 31);
+  EXPECT_EQ(of(words, "168 triangles"), 84 * 22);
+  EXPECT_EQ(of(missing, "one quadric"), 0);
+  EXPECT_EQ(of("modelled.quadric_processors.used", "one quadric"), 1);
+  const std::vector<std::pair<const char*, double>> meshes{
+      {"168 triangles", 168}, {"374 triangles", 374}, {"690 triangles", 690}, {"31,680 triangles", 31680}};
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    EXPECT_EQ(of("modelled.object_processors.used", meshes[i].first), meshes[i].second);
+    EXPECT_GT(of(host, meshes[i].first), 10 * of(host, "one quadric"));
+    if (i == 0) continue;
+    EXPECT_GT(of(host, meshes[i].first), of(host, meshes[i - 1].first));
+    EXPECT_LT(of(error, meshes[i].first), of(error, meshes[i - 1].first));
+    EXPECT_LT(of(missing, meshes[i].first), of(missing, meshes[i - 1].first));
+  }
+  EXPECT_LT(of(error, "one quadric"), of(error, "690 triangles"));
+}
+
+// On a screen that is a power of two, as its units of depth have to be pixels.
+TEST_F(ReadySweepTest, QuadricWords) {
+  const std::string file = std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps/quadric_words.toml";
+  const Outcome outcome = run({"explore", "run", file, "--store", "s.sqlite", "--jobs", "2", "--set",
+                               "video.columns=128", "--set", "video.lines=128"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(run({"explore", "show", "s.sqlite"}).out, HasSubstr("Answer, given scene = sphere_quadric: "));
+  const explore::SweepTable found = table();
+  ASSERT_EQ(found.rows.size(), 84U);
+  const auto of = [&](const char* path, const char* scene, const char* words, const char* scaling) {
+    return figure(found, path, {scene, words, "6", scaling});
+  };
+  const char* psnr = "errors[ideal].worst.psnr_outline_db";
+  const auto wrong = [&](const char* scene, const char* words, const char* scaling) {
+    return of("errors[ideal].worst.covered_missing", scene, words, scaling) +
+           of("errors[ideal].worst.covered_extra", scene, words, scaling);
+  };
+  const char *narrow = "4 fraction bits of 24", *wide = "12 of 48";
+  EXPECT_GT(wrong("ellipsoid", narrow, "fixed"), 50);
+  for (const char* scaling : {"fixed", "object"}) {
+    EXPECT_LT(wrong("sphere_quadric", narrow, scaling), 10);
+    EXPECT_GT(wrong("ellipsoid", narrow, scaling), wrong("ellipsoid", wide, scaling) + 2);
+    for (const char* scene : {"sphere_quadric", "ellipsoid"}) {
+      EXPECT_LE(wrong(scene, wide, scaling), 1);
+      EXPECT_GT(of(psnr, scene, wide, scaling), 50);
+      EXPECT_EQ(of("images[0].solids.refused", scene, wide, scaling), 0);
+      // 24 bits more of a discriminant's six words, in two RAMs, and of the three that are kept, in 512 processors.
+      EXPECT_GT(of("sum(memories[].total_bits)", scene, wide, scaling),
+                of("sum(memories[].total_bits)", scene, narrow, scaling) + 512 * 24 * 15);
+    }
+  }
+}
+
 // Nobody adds one without a test above.
 TEST_F(ReadySweepTest, AllAreTested) {
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(RASTERTLM_SOURCE_DIR) + "/configs/sweeps"))
     found.insert(entry.path().stem().string());
-  EXPECT_EQ(found,
-            (std::set<std::string>{"highlight_recall", "loaders", "pipeline_or_tree", "regular_subdivision",
-                                   "resolutions", "shading_methods", "span_units", "sparcstation_20",
-                                   "sparcstation_20_lights", "transputers", "word_lengths", "word_lengths_quadratic"}));
+  EXPECT_EQ(found, (std::set<std::string>{"highlight_recall", "loaders", "pipeline_or_tree", "quadric_or_triangles",
+                                          "quadric_words", "regular_subdivision", "resolutions", "shading_methods",
+                                          "span_units", "sparcstation_20", "sparcstation_20_lights", "transputers",
+                                          "word_lengths", "word_lengths_quadratic"}));
 }
 
 }  // namespace

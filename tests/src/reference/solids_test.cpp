@@ -221,7 +221,7 @@ TEST(Solids, AlongTheirAxis) {
 }
 
 TEST(Solids, SpheresAreThoseOfTheSphereRenderer) {
-  for (const bool perspective : {true, false}) {
+  for (const auto& [perspective, cut] : {std::pair(true, false), {false, false}, {true, true}, {false, true}}) {
     scene::SceneDescription d = lit_scene(camera_of(perspective, 8));
     d.lights[1].kind = scene::LightKind::point;
     d.lights[1].position = {2, -4, 1};
@@ -229,6 +229,7 @@ TEST(Solids, SpheresAreThoseOfTheSphereRenderer) {
     d.objects[0].scale = {1.5, 1.5, -1.5};
     d.objects[0].rotate_deg = {20, 30, 40};
     d.objects[1].translate = {0.9, -1.6, 0.4};
+    if (cut) d.camera.near = 9.0;  // through both
     const scene::Scene scene = scene::build_scene(d, "scene.toml", ".");
     ASSERT_TRUE(is_of_spheres(scene));
     const scene::Pose pose = scene::pose(scene, 0, 160, 120);
