@@ -64,10 +64,10 @@ TEST(QuadricRefusal, MorePlanesThanCaps) {
   const QuadricSetUp result = set_up(solid, view_of(true, kScreen), format);
   expect_refused(result, "quadric_processor.caps", AllOf(HasSubstr("is 2"), HasSubstr("3 planes")));
   EXPECT_EQ(result.problem.width, 3);
-  PlacedSolid five = solid;
-  five.planes.resize(5, {1, 0, 0, 0});
-  const QuadricSetUp none = set_up(five, view_of(true, kScreen), format);
-  expect_refused(none, "quadric_processor.caps", HasSubstr("more than the 4 that there can be"));
+  PlacedSolid seven = solid;
+  seven.planes.resize(7, {1, 0, 0, 0});
+  const QuadricSetUp none = set_up(seven, view_of(true, kScreen), format);
+  expect_refused(none, "quadric_processor.caps", HasSubstr("more than the 6 that there can be"));
   EXPECT_EQ(none.problem.width, 0);
   format.parameters.caps = 3;
   const QuadricSetUp more = set_up(solid, view_of(true, kScreen), format);
