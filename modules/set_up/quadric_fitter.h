@@ -70,6 +70,7 @@ class QuadricFitter {
   T near_to_zero() const;
   void look_at_rays();
   void look_along_rulings(const T& zero);
+  void refuse_what_rounding_hides();
   bool find_region();
   void choose_scale();
   int scale_of_root();

@@ -20,6 +20,9 @@ namespace detail {
 namespace {
 
 constexpr double kNearToZero = 0x1p-44;
+// Of the squares that a discriminant is the difference of, the least that it must be somewhere: some 2^8 times what
+// their rounding leaves of it.
+constexpr double kLeastOfSquares = 0x1p-42;
 
 // The largest power k of 4 with value 4^k <= limit; value and limit more than 0.
 int largest_scale(double value, double limit) {
@@ -133,11 +136,24 @@ void QuadricFitter<T>::look_along_rulings(const T& zero) {
                    minus_two * screen[0][3], minus_two * screen[1][3], minus * screen[3][3]};
 }
 
+// The discriminant is l^2 - P / a: of a solid that is flat to the eye, or far too small, rounding leaves nothing of it.
+template <class T>
+void QuadricFitter<T>::refuse_what_rounding_hides() {
+  const double unit = std::ldexp(depth_range_, -depth_fraction_);
+  const T middle = range_in(form_.middle, screen_).largest_magnitude();
+  const T squares = middle * middle * T(std::ldexp(unit * unit, static_cast<int>(parameters_.fraction_bits)));
+  if (magnitude(on_screen_.most) < T(kLeastOfSquares) * squares)
+    refuse("", 0,
+           "a solid is so flat to the eye, or so small, that doubles do not hold where it is in front of itself; a "
+           "thicker one, or a plane of triangles, can be drawn");
+}
+
 // Where it can be seen; false where nowhere.
 template <class T>
 bool QuadricFitter<T>::find_region() {
   const bool between = result_.words.part == RayPart::between;
   on_screen_ = range_in(discriminant_, screen_);
+  if (between) refuse_what_rounding_hides();
   if (result_.words.part != RayPart::outside && on_screen_.most < T(0.0)) return false;
   if (between) outline_ = ellipse_of(discriminant_);
   positive_ = outline_ ? outline_->box(T(0.0), screen_) : screen_;

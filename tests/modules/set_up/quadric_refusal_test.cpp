@@ -75,6 +75,27 @@ TEST(QuadricRefusal, MorePlanesThanCaps) {
   EXPECT_EQ(compare(solid, view_of(true, kScreen), format, more, 1).wrong, "");
 }
 
+// Face on, thinner and thinner: drawn as it is, or refused, but never as something else.
+TEST(QuadricRefusal, FlatterThanDoublesHold) {
+  int drawn = 0, refused = 0;
+  for (const bool perspective : {true, false})
+    for (double thickness = 1e-2; thickness > 1e-12; thickness /= 3) {
+      const glm::dmat4 place = glm::scale(moved(0.1, -0.2, -6), glm::dvec3(1.0, 1.0, thickness));
+      const PlacedSolid solid = placed_solid(kSolidShapes[kSphere], place);
+      const View view = view_of(perspective, kScreen);
+      const QuadricSetUp result = set_up(solid, view, default_format());
+      if (result.outcome == QuadricOutcome::drawn) {
+        expect_same_coverage(solid, view, default_format(), result);
+        ++drawn;
+      } else {
+        expect_refused(result, "", HasSubstr("flat"));
+        ++refused;
+      }
+    }
+  EXPECT_GT(drawn, 10);
+  EXPECT_GT(refused, 10);
+}
+
 // Turned about the axis by any angle, so that what should be 0 is what rounding left.
 TEST(QuadricRefusal, ACylinderAlongParallelRaysIsItsOutline) {
   for (const double angle : {0.0, 0.3, 1.1, 2.7}) {
