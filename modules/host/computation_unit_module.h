@@ -87,7 +87,7 @@ class ComputationUnitModule : public sc_core::sc_module {
   void fit_and_write(const Message& plan, const FrameWork& work);
   void cut_into_segments(Cycles computing, const geometry::OperationCounts& of_triangles);
   void write_words(std::uint64_t count);
-  void write(std::size_t parcel, std::size_t first_word, std::size_t count);
+  void write(std::size_t number, std::size_t first_word, std::size_t count);
   void put_on_bus(BusSocket& socket, std::uint64_t address, std::uint32_t* words, std::size_t count);
   void send_on(MessageInitiator<ComputationUnitModule>& socket, MessagePayload& payload, LinkPort& port);
   void receive_from_above(MessagePayload& payload, sc_core::sc_time& delay);

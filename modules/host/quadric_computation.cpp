@@ -10,7 +10,6 @@
 namespace rastertlm::host {
 
 using geometry::operation_counts;
-using geometry::OperationCounts;
 using set_up::QuadricOutcome;
 
 QuadricCounts& QuadricCounts::operator+=(const QuadricCounts& other) {

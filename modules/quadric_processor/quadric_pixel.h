@@ -65,6 +65,17 @@ class QuadricPixelLogic {
   QuadricPixel operator()(const QuadricWords& words, const PixelWords& pixel) const;
 
  private:
+  // Where a ray comes into the solid.
+  struct Entry {
+    std::int64_t depth;
+    Surface surface = Surface::near_plane;
+    std::uint8_t cap = 0;
+  };
+  struct Ray;
+  Ray cut(const QuadricWords& words, const PixelWords& pixel) const;
+  std::array<std::uint32_t, 3> normal(const QuadricWords& words, const PixelWords& pixel, std::uint64_t root,
+                                      const Entry& entry) const;
+
   QuadricParameters parameters_;
   object_processor::RootFormat root_;
   unsigned depth_bits_;

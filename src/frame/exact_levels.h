@@ -67,7 +67,11 @@ class ExactLevels {
     const std::size_t pixel = i / 3;
     return 3 * kGroup * (pixel / kGroup) + kGroup * (i % 3) + pixel % kGroup;
   }
-  static std::int32_t nearest(double level) { return static_cast<std::int32_t>(level + 0.5); }  // none is negative
+  // None is negative; half a level goes up.
+  static std::int32_t nearest(double level) {
+    const double half_more = level + 0.5;
+    return static_cast<std::int32_t>(half_more);
+  }
   void split(std::size_t i, std::size_t at) {
     const std::int32_t rounded = nearest(levels_[i]);
     rounded_[at] = static_cast<std::uint8_t>(rounded);

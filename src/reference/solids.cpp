@@ -8,7 +8,6 @@
 
 namespace rastertlm::reference {
 
-using geometry::PixelRay;
 using geometry::QuadricHit;
 
 namespace {
