@@ -44,11 +44,11 @@ SlotMap assign_solids(std::size_t solids, const HostParameters& parameters, std:
   const auto boards = static_cast<std::size_t>(parameters.computation_units);
   const auto slots = static_cast<std::size_t>(per_unit);
   if (solids > boards * slots && parameters.overflow == Overflow::error)
-    throw InputError(
-        {"", 0, "quadric_processor.per_unit",
-         fmt::format("the scene has {} solids and the machine {} quadric processors ({} units of {}); more "
-                     "of them, or host.overflow = \"drop\", would draw it",
-                     solids, boards * slots, boards, slots)});
+    throw InputError({"", 0, "quadric_processor.per_unit",
+                      fmt::format("the scene has {} solid{} and the machine {} quadric processors ({} units of {}); {}",
+                                  solids, solids == 1 ? "" : "s", boards * slots, boards, slots,
+                                  slots == 0 ? "1 a unit or more would draw solids"
+                                             : "more of them, or host.overflow = \"drop\", would draw it")});
   return dealt(solids, boards, slots, parameters.assignment);
 }
 

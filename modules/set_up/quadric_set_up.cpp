@@ -42,7 +42,8 @@ QuadricSetUp QuadricFitter<T>::operator()(std::uint32_t material) {
   try {
     if (const auto planes = static_cast<std::int64_t>(planes_.size()); planes > parameters_.caps) {
       constexpr auto kMost = static_cast<std::int64_t>(quadric_processor::kMostCaps);
-      std::string message = fmt::format("is {}; a solid is cut by {} planes", parameters_.caps, planes);
+      std::string message =
+          fmt::format("is {}; a solid is cut by {} planes, its ends counted", parameters_.caps, planes);
       if (planes > kMost) message += fmt::format(", more than the {} that there can be", kMost);
       refuse("caps", planes > kMost ? 0 : planes, std::move(message));
     }

@@ -19,7 +19,8 @@ const char* meaning(const std::string& reference, bool interpolates) {
                           "arithmetic together"
                         : "the machine's own model in double, vertices not snapped: the error of the arithmetic";
   if (reference == "snapped")
-    return "the same given the snapped vertices: where edges are snapped, no pixel of it may be missing or extra";
+    return "the same given the snapped vertices: where edges are snapped, no pixel of a triangle may be missing or "
+           "extra";
   if (reference == "true")
     return "perspective-correct normals, local viewer and lights: the error of the model as well";
   if (reference == "sphere")

@@ -174,8 +174,7 @@ void add_warnings(imogene::Imogene& platform, const shading::DeferredShader& sha
   for (const FrameFigures& frame : result.frames) refused = std::max(refused, frame.solids_refused);
   if (refused > 0)
     result.warnings.push_back(fmt::format(
-        "up to {} solids a frame do not fit the words of the quadric processors and are missing from the picture",
-        refused));
+        "up to {} solids a frame cannot be shown by the quadric processors and are missing from the picture", refused));
   if (const std::string late = late_tables_warning(platform, result.frames); !late.empty())
     result.warnings.push_back(late);
   if (shader.counters().short_normals > 0)

@@ -145,8 +145,8 @@ void check_hyperboloid(const ObjectDescription& object, const std::string& path,
     problems.add(path + ".waist",
                  fmt::format("{} must be below radius, {}, where there is one sheet", object.waist, object.radius));
   if (object.sheets == 2 && !(2 * object.waist < object.height))
-    problems.add(path + ".waist", fmt::format("{} must be below half of height, {}, where there are two sheets",
-                                              object.waist, object.height));
+    problems.add(path + ".waist", fmt::format("{} must be below {}, half of the height, where there are two sheets",
+                                              object.waist, object.height / 2));
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ TEST_F(QuadricsTest, WhatHasNoRootIsRefusedOrLeftOut) {
              "turned by a little", "(object 1 of the scene, frame 0)"});
     const Outcome outcome = render(view, object, {"--set", "quadric_processor.on_refusal=drop"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.out, HasSubstr("up to 1 solids a frame do not fit the words of the quadric processors"));
+    EXPECT_THAT(outcome.out, HasSubstr("up to 1 solids a frame cannot be shown by the quadric processors"));
   }
   EXPECT_GT(covered(kPerspective, paraboloid), 200);
   // Nearly so its roots are far away: the word is named, and its width does.

@@ -39,7 +39,7 @@ TEST_F(SolidsTest, MachinesWithoutQuadricProcessors) {
   const Outcome outcome = run({"render", "machine.toml", "scene.toml", "--out", "o"});
   EXPECT_EQ(outcome.exit_code, 2) << outcome.out << outcome.err;
   EXPECT_THAT(outcome.err,
-              HasSubstr("machine.toml: quadric_processor.per_unit: the scene has 1 solids and the machine 0 "
+              HasSubstr("machine.toml: quadric_processor.per_unit: the scene has 1 solid and the machine 0 "
                         "quadric processors"));
 }
 

@@ -244,7 +244,7 @@ INSTANTIATE_TEST_SUITE_P(
                o.sheets = 2;
                o.waist = 1;
              },
-             "waist: 1 must be below half of height, 2, where there are two sheets"},
+             "waist: 1 must be below 1, half of the height, where there are two sheets"},
         Case{"NotANumber", ObjectKind::quadric,
              [](ObjectDescription& o) { o.products[2] = std::numeric_limits<double>::quiet_NaN(); },
              "products[2]: is not a finite number"},
