@@ -35,13 +35,13 @@ class ComputationUnitModule : public sc_core::sc_module {
     std::vector<std::uint64_t> resident_below = {};  // bytes of meshes for the units behind each link below
   };
 
-  // `swapped`: at a retrace at which every unit had finished; `copies`: when its board takes no words.
   // What it computes for quadric processors, and the words of such a slot; null in a machine that has none.
   struct Solids {
     QuadricComputation* computation = nullptr;
     std::uint64_t words_a_slot = 0;
   };
 
+  // `swapped`: at a retrace at which every unit had finished; `copies`: when its board takes no words.
   ComputationUnitModule(const sc_core::sc_module_name& name, std::uint32_t unit, Computation& computation,
                         Solids solids, const HostCost& cost, std::size_t children, const sc_core::sc_event& swapped,
                         Links links, const CopyTimes& copies);

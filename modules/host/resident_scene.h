@@ -13,7 +13,7 @@
 namespace rastertlm::host {
 
 struct ResidentObject {
-  const geometry::Mesh* mesh = nullptr;  // null where it is a solid
+  const geometry::Mesh* mesh = nullptr;  // of no triangle where it is a solid
   bool two_sided = false;
   bool moves = false;
   const geometry::Solid* solid = nullptr;

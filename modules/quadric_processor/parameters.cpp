@@ -28,7 +28,7 @@ std::uint64_t QuadricParameters::latency_cycles() const {
 }
 
 void QuadricParameters::declare(parameter::Table& table) {
-  table.integer("quadric_processor.per_unit", per_unit, {0, 1 << 24},
+  table.integer("quadric_processor.per_unit", per_unit, {0, 1 << 23},
                 {"processors", "Quadric processors on the bus of each computation unit.",
                  "budgets[] quadrics, memories[], processors"});
   table.integer("quadric_processor.word_bits", word_bits, {16, kMostWordBits},

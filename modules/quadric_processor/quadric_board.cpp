@@ -153,7 +153,8 @@ std::uint32_t QuadricBoard::slots_in_use() const {
 }
 
 std::uint64_t QuadricBoard::memory_bytes() const {
-  std::uint64_t bytes = slots_.capacity() * sizeof(Slot) + bands_.words() * sizeof(std::uint32_t);
+  std::uint64_t bytes = slots_.size() * (sizeof(Slot) + sizeof(Interval)) + bands_.words() * sizeof(std::uint32_t);
+  for (const Slot& slot : slots_) bytes += slot.region.memory_bytes();
   for (const LineRoom& room : rooms_)
     bytes += room.spans.capacity() * sizeof(frame::SolidSpan) +
              room.depth.capacity() * (2 * sizeof(std::uint32_t) + sizeof(std::uint8_t));

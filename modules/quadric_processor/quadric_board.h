@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -114,7 +115,7 @@ class QuadricBoard {
   std::uint32_t first_processor_;
   bool everything_;
   RayKernel kernel_;
-  std::vector<Slot> slots_;
+  std::deque<Slot> slots_;  // spans point into them while others are added
   std::vector<Interval> intervals_;
   std::vector<std::uint32_t> changes_;
   object_processor::BandIndex bands_;

@@ -25,7 +25,7 @@ struct QuadricLogic {
   std::uint64_t adder_bits = 0;
   std::uint64_t multipliers = 0;  // of the root with constants
   std::uint64_t multiplier_bits = 0;
-  std::uint64_t comparators = 0;  // of entry and exit, plane_bits each
+  std::uint64_t comparators = 0;  // of entry and exit, plane_bits each, and one of the depth word
   std::uint64_t root_stages = 0;
   std::uint64_t shifters = 0;  // between root and depth, where solids have scales; and of the pre-normalisation unit
 };

@@ -77,7 +77,8 @@ inline constexpr std::size_t kWordsWithoutCaps = 1 + 12 + 6 + 9 + 3;
 inline constexpr std::size_t kWordsOfCap = 6 + 3;
 inline constexpr std::size_t kMostWords = kWordsWithoutCaps + kMostCaps * kWordsOfCap;
 constexpr std::size_t words_of_slot(std::size_t caps) { return kWordsWithoutCaps + caps * kWordsOfCap; }
-inline constexpr unsigned kQuadricShift = 9;   // of a slot's address on the bus: 128 words of 4 bytes
+inline constexpr unsigned kQuadricShift =
+    9;  // of a slot's address on the bus: 128 words of 4 bytes, and 2^23 slots a board
 inline constexpr std::size_t kParkWords = 13;  // control and discriminant
 
 using QuadricImage = std::array<std::uint32_t, kMostWords>;

@@ -47,6 +47,9 @@ class SolidRegion {
 
   const Interval& lines() const { return lines_; }
   LinePieces columns(std::int32_t line) const;
+  std::uint64_t memory_bytes() const {  // beside itself
+    return polygon_.capacity() * sizeof(Point) + planes_.capacity() * sizeof(RealPlane);
+  }
 
  private:
   struct Point {

@@ -113,9 +113,11 @@ void Machine::check(Diagnostics& diagnostics, const std::string& file) const {
   gather([&] { check_quadric_line_start(*this); });
   gather([&] { check_retrace(*this); });
   if (processors() > kMostProcessors)
-    diagnostics.add({file, 0, "host.processors_per_unit",
-                     fmt::format("{} units of {} are more than {} object processors", host.computation_units,
-                                 host.processors_per_unit + quadric.per_unit, kMostProcessors)});
+    diagnostics.add(
+        {file, 0,
+         quadric.per_unit > host.processors_per_unit ? "quadric_processor.per_unit" : "host.processors_per_unit",
+         fmt::format("{} units of {} are more than {} processors", host.computation_units,
+                     host.processors_per_unit + quadric.per_unit, kMostProcessors)});
 }
 
 std::uint64_t Machine::triangle_processors() const {

@@ -201,8 +201,8 @@ void visit_boards(Visitor& v, run::Modelled& m) {
     o.value(
         "total",
         {"words", kFormula,
-         "of every slot that holds an object, an update: 22 of a triangle; slots that show nothing are parked with 3 "
-         "words or none"},
+         "of every slot that holds an object, an update: 22 of a triangle, 31 and 9 a cap of a solid; slots that show "
+         "nothing are parked with 3 words, of a solid 13, or none"},
         m.coefficients_total);
     o.value("sent", {"words", kCount, "that were written"}, m.coefficients_sent);
   });

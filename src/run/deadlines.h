@@ -13,9 +13,9 @@ namespace rastertlm::run {
 using imogene::BoardNeeds;
 
 // Pixel clocks that are left when line `line` of the picture begins. Horizontal blanking holds the line start, once
-// for each line advanced; the first line of a video frame has the vertical retrace too, which holds skew and frame
-// start. `tables_wait`: clocks from the retrace before which a line that starts finds tables that are being loaded, 0
-// if there are none; it is late by the difference.
+// for each line advanced, or the quadric processors' where it is longer; the first line of a video frame has the
+// vertical retrace too, which holds skew and frame start. `tables_wait`: clocks from the retrace before which a line
+// that starts finds tables that are being loaded, 0 if there are none; it is late by the difference.
 struct Slack {
   Cycles available;
   Cycles needed;

@@ -140,6 +140,27 @@ TEST(QuadricBoardTest, LooksAtNoLineThatASolidDoesNotTouch) {
   EXPECT_LE(board.counters().lines_evaluated, 25U);
 }
 
+// What a line has shown stays while slots that were never written are.
+TEST(QuadricBoardTest, SpansStayWhereTheyAreWhileSlotsAreAdded) {
+  QuadricParameters parameters;
+  QuadricBoard board(parameters, kScreen, 1000, 0);
+  QuadricWords everywhere;
+  everywhere.discriminant.v0 = 1 << 20;
+  everywhere.middle.c = 1 << 23;
+  everywhere.material = 7;
+  board.write(0, everywhere);
+  board.copy();
+  const frame::CoveredLine* covered = nullptr;
+  board.cover_lines(0, 1, 1, &covered);
+  ASSERT_EQ(covered->solid_count, 1U);
+  const frame::SolidSource* source = covered->solids[0].source;
+  board.write(999, everywhere);
+  board.cover_lines(0, 1, 1, &covered);
+  EXPECT_EQ(covered->solids[0].source, source);
+  EXPECT_EQ(source->middle.material, 7U);
+  EXPECT_EQ(source->middle.object, 1U);
+}
+
 TEST(QuadricBoardTest, ParkedAndUnknownSlots) {
   QuadricParameters parameters;
   parameters.caps = 1;
