@@ -211,6 +211,7 @@ bool measure(std::size_t count, double radius, bool cylinders, std::size_t pairs
   const set_up::QuadricFormat format = format_of_machine();
   const std::vector<QuadricWords> solids = random_solids(count, radius, cylinders);
   std::vector<plain_solids::Solid> plain;
+  plain.reserve(solids.size());
   for (const QuadricWords& words : solids) plain.push_back(plain_solid(words, format));
   const auto loop =
       plain_loop({kColumns, kLines, 12, 16, 24, 12, set_up::near_depth(format.words), set_up::far_depth(format.words)});

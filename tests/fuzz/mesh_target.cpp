@@ -9,7 +9,8 @@
 #include "src/scene/import.h"
 #include "tests/fuzz/fuzz_target.h"
 
-// Of the sanitizers, where there are any.
+// Of the sanitizers, where there are any: the name is theirs.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__((weak));
 
 namespace rastertlm::fuzz {
