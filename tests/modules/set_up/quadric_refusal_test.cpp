@@ -59,7 +59,7 @@ void expect_refused(const QuadricSetUp& result, const std::string& key, const te
 
 TEST(QuadricRefusal, MorePlanesThanCaps) {
   PlacedSolid solid = placed_solid(kSolidShapes[kCylinder], moved(0, 0, -6));
-  solid.planes.push_back({1, 0, 0, 0});
+  solid.planes.emplace_back(1, 0, 0, 0);
   QuadricFormat format = default_format();
   const QuadricSetUp result = set_up(solid, view_of(true, kScreen), format);
   expect_refused(result, "quadric_processor.caps", AllOf(HasSubstr("is 2"), HasSubstr("3 planes")));

@@ -14,7 +14,6 @@
 namespace rastertlm::set_up {
 namespace {
 
-using quadric_processor::CapKeeps;
 using quadric_processor::RayPart;
 using quadric_processor::RootReading;
 using quadric_processor::Scaling;

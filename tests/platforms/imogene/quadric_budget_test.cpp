@@ -188,7 +188,8 @@ void expect_all(const run::Result& result, const Machine& m, std::uint64_t frame
   // 4 ns a bit of the widest slice.
   const std::uint64_t widest = std::min(m.slice, std::max(m.word, m.plane));
   expect_budget(result, "quadric_adder_delay", 4.0 * static_cast<double>(widest), 60.0);
-  expect_budget(result, "frame_start", 14, static_cast<double>(kFrame - m.line() * (m.lines / m.fields)));
+  const std::uint64_t lines_of_field = m.lines / m.fields;
+  expect_budget(result, "frame_start", 14, static_cast<double>(kFrame - m.line() * lines_of_field));
   expect_memories(result, m);
   expect_logic(result, m);
   expect_units(result, m, frames);

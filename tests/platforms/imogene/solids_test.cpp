@@ -16,7 +16,6 @@ namespace {
 
 using quadric_processor::QuadricPixel;
 using quadric_processor::Surface;
-using reference::PlacedSolid;
 using View = SolidScene::View;
 
 struct Figures {

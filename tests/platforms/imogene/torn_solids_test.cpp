@@ -103,12 +103,13 @@ class TornSolidsTest : public SimulationTest {
   // Twelve that turn about the middle, the outer ones out of view and back.
   std::string scene() const {
     std::string solids;
-    for (int i = 0; i < 12; ++i)
+    for (int i = 0; i < 12; ++i) {
+      const int row = i / 4;
       solids += fmt::format(
           "[[object]]\ntype = \"{}\"\nmaterial = \"glaze\"\nradius = 0.6\n{}translate = [{}, 0.0, {}]\n"
           "[[object.animation]]\ntype = \"orbit\"\naxis = [0.1, 1.0, 0.2]\ndeg_per_frame = 25.0\n",
-          i % 2 == 0 ? "sphere" : "cone", i % 2 == 0 ? "" : "height = 1.0\n", -2.4 + 1.6 * (i % 4),
-          -2.9 + 2.9 * (i / 4));
+          i % 2 == 0 ? "sphere" : "cone", i % 2 == 0 ? "" : "height = 1.0\n", -2.4 + 1.6 * (i % 4), -2.9 + 2.9 * row);
+    }
     return written("turned.toml", scene_of(solids));
   }
   static std::vector<std::string> set(const std::string& swap) {
