@@ -191,7 +191,7 @@ TEST_F(QuadricsTest, MorePlanesThanCaps) {
           {"machine.toml:11: quadric_processor.caps: is 3; a solid is cut by 4 planes",
            "quadric_processor.caps = 4 would do"});
   EXPECT_EQ(render(kParallel, four, {"--set", "quadric_processor.caps=4"}).exit_code, 0);
-  refused(kParallel, four + plane + plane + plane, {"7 planes, more than the 6 that there can be"});
+  refused(kParallel, four + plane + plane + plane, {"7 planes, its ends counted, more than the 6 that there can be"});
 }
 
 }  // namespace
