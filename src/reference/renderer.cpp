@@ -125,7 +125,8 @@ glm::dvec3 levels_of(const PlacedSolid& solid, const PieceLight& light, double c
 }
 
 glm::dvec2 place_of(std::size_t pixel, std::size_t columns) {
-  return {static_cast<double>(pixel % columns), static_cast<double>(pixel / columns)};
+  const std::size_t line = pixel / columns;
+  return {static_cast<double>(pixel % columns), static_cast<double>(line)};
 }
 
 void mark(frame::ExactFrame& out, const std::vector<float>& specular, const std::vector<Piece>& pieces,

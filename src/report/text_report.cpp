@@ -183,6 +183,14 @@ std::string memory_section(const run::Result& result) {
   return text;
 }
 
+void add_solids(const run::Result& result, TextTable& table) {
+  const run::FrameFigures& f = result.frames.front();
+  table.row({"made", grouped(result.modelled.solids_made), "solids"});
+  table.row({"drawn", grouped(f.solids_drawn), "solids"});
+  table.row({"outside the view", grouped(f.solids_outside), "solids"});
+  table.row({"left out, of words that cannot show them", grouped(f.solids_refused), "solids"});
+}
+
 std::string pictures_section(const run::Result& result) {
   if (result.frames.empty()) return "";
   const run::FrameFigures& f = result.frames.front();
@@ -199,12 +207,7 @@ std::string pictures_section(const run::Result& result) {
   if (has_boards(result)) {
     add("more processors for clipped pieces", f.pieces, "processors");
     add("pieces dropped", f.pieces_dropped, "pieces");
-    if (result.modelled.solids_made > 0) {
-      add("made", result.modelled.solids_made, "solids");
-      add("drawn", f.solids_drawn, "solids");
-      add("outside the view", f.solids_outside, "solids");
-      add("left out, of words that cannot show them", f.solids_refused, "solids");
-    }
+    if (result.modelled.solids_made > 0) add_solids(result, table);
   } else {
     add("more pieces by clipping", f.pieces, "triangles");
     add("handed to the span unit, children included", f.span.drawn_pieces, "triangles");

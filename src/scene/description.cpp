@@ -3,7 +3,6 @@
 namespace rastertlm::scene {
 namespace {
 
-using parameter::About;
 using parameter::Condition;
 using parameter::Range;
 

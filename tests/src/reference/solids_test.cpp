@@ -266,7 +266,8 @@ TEST(Solids, PassThroughTriangles) {
     for (std::size_t pixel = 0; pixel < out.pixels(); ++pixel) {
       const double size = 5.0 / kLines;
       const double x = (static_cast<double>(pixel % kColumns) - (kColumns - 1) / 2.0) * size;
-      const double y = -(static_cast<double>(pixel / kColumns) - (kLines - 1) / 2.0) * size;
+      const std::size_t line = pixel / kColumns;
+      const double y = -(static_cast<double>(line) - (kLines - 1) / 2.0) * size;
       const double under = 2.25 - x * x - y * y;
       const bool in_square = std::fabs(x) < 2 && std::fabs(y)<2, in_sphere = under> 0;
       ++seen[out.object[pixel]];
