@@ -9,23 +9,17 @@
 
 namespace rastertlm::quadric_processor {
 
-namespace {
-
-unsigned slices_of(std::int64_t word, std::int64_t slice) { return static_cast<unsigned>((word + slice - 1) / slice); }
-
-}  // namespace
-
 object_processor::RootFormat QuadricParameters::root() const {
   return {static_cast<unsigned>(root_integer_bits), static_cast<unsigned>(root_guard_bits),
           static_cast<unsigned>(fraction_bits), root_reading};
 }
 
-unsigned QuadricParameters::slices() const { return slices_of(word_bits, slice_bits); }
-unsigned QuadricParameters::plane_slices() const { return slices_of(plane_bits, slice_bits); }
-
-std::uint64_t QuadricParameters::latency_cycles() const {
-  return root().stages() + static_cast<std::uint64_t>(output_cycles);
+unsigned QuadricParameters::slices_of(std::uint64_t bits) const {
+  const auto slice = static_cast<std::uint64_t>(slice_bits);
+  return static_cast<unsigned>((bits + slice - 1) / slice);
 }
+unsigned QuadricParameters::slices() const { return slices_of(static_cast<std::uint64_t>(word_bits)); }
+unsigned QuadricParameters::plane_slices() const { return slices_of(static_cast<std::uint64_t>(plane_bits)); }
 
 void QuadricParameters::declare(parameter::Table& table) {
   table.integer("quadric_processor.per_unit", per_unit, {0, 1 << 23},
@@ -35,33 +29,41 @@ void QuadricParameters::declare(parameter::Table& table) {
                 {"bits", "Width of the second order processor: of the discriminant that the root is taken of.",
                  "picture of quadrics, memories[], budgets[] quadric_line_start"});
   table.integer("quadric_processor.fraction_bits", fraction_bits, {0, 32},
-                {"bits", "Fraction bits of the discriminant, in square units of depth.", "picture of quadrics"});
+                {"bits", "Fraction bits of the discriminant, in square units of depth; at most word_bits - 2.",
+                 "picture of quadrics"});
   table.integer("quadric_processor.plane_bits", plane_bits, {24, kMostPlaneBits},
-                {"bits", "Width of the first order processors of depth and caps, in units of the depth word.",
-                 "memories[], budgets[] quadric_line_start; which solids are refused"});
+                {"bits",
+                 "Width of the first order processors of depth and caps, in units of the depth word; more than "
+                 "object_processor.word_bits.",
+                 "latency, memories[], budgets[] quadric_line_start, quadric_sum_delay; which solids are refused"});
   table.integer("quadric_processor.slice_bits", slice_bits, {1, 60},
-                {"bits", "Width of one slice of the pipelined adders of both.",
-                 "budgets[] quadric_line_start, quadric_adder_delay"});
-  table.integer(
-      "quadric_processor.caps", caps, {0, static_cast<std::int64_t>(kMostCaps)},
-      {"planes", "Planes that may cut a solid, a first order processor each.", "memories[]; which solids are refused"});
-  table.integer(
-      "quadric_processor.root_integer_bits", root_integer_bits, {1, kMostRootIntegerBits},
-      {"bits", "Integer bits of the square root, in units of depth.", "picture of quadrics, latency, memories[]"});
+                {"bits",
+                 "Width of one slice of the pipelined adders of both, of the root's subtracters, the sums and the "
+                 "multipliers: what is wider takes a clock a slice. At most 32 slices a word.",
+                 "latency, memories[], budgets[] quadric_line_start, quadric_adder_delay, quadric_root_delay, "
+                 "quadric_sum_delay, quadric_multiplier_delay"});
+  table.integer("quadric_processor.caps", caps, {0, static_cast<std::int64_t>(kMostCaps)},
+                {"planes", "Planes that may cut a solid, a first order processor each.",
+                 "latency, memories[]; which solids are refused"});
+  table.integer("quadric_processor.root_integer_bits", root_integer_bits, {1, kMostRootIntegerBits},
+                {"bits", "Integer bits of the square root, in units of depth.",
+                 "picture of quadrics, latency, memories[], budgets[] quadric_root_delay"});
   table.integer("quadric_processor.root_guard_bits", root_guard_bits, {0, 16},
-                {"bits", "Further bits of the square root, of fraction: one stage of its pipeline each.",
-                 "picture of quadrics, latency, memories[]"});
+                {"bits",
+                 "Further bits of the square root, of fraction: one stage of its pipeline each. With "
+                 "root_integer_bits at most 24.",
+                 "picture of quadrics, latency, memories[], budgets[] quadric_root_delay"});
   table.choice("quadric_processor.root_reading", root_reading, {"floor", "half_unit"},
                {"", "How the root is read: as it is, up to a unit too small, or as the middle of its interval.",
-                "picture of quadrics"});
+                "picture of quadrics, latency, memories[]"});
   table.integer("quadric_processor.multiplier_bits", multiplier_bits, {12, 32},
                 {"bits", "Width of the constants that the root is multiplied with for the normal.",
-                 "picture of quadrics, memories[]"});
+                 "picture of quadrics, latency, memories[], budgets[] quadric_multiplier_delay"});
   table.choice("quadric_processor.scaling", scaling, {"object", "fixed"},
                {"",
                 "Whether the host scales each solid's discriminant until its root fills the extractor, or leaves it in "
                 "units of depth.",
-                "picture of quadrics; which solids are refused"});
+                "picture of quadrics, latency; which solids are refused"});
   table.choice("quadric_processor.on_refusal", on_refusal, {"error", "drop"},
                {"", "What a solid that the words cannot show does: it ends the run, or it is left out and counted.",
                 "which scenes are refused"});
@@ -69,7 +71,7 @@ void QuadricParameters::declare(parameter::Table& table) {
                {"", "How fragments of triangles and quadrics meet: quadrics start earlier, or triangles wait.",
                 "latency, memories[]"});
   table.integer("quadric_processor.output_cycles", output_cycles, {1, 64},
-                {"cycles", "Register stages behind the root: multiplication and interval logic.", "latency"});
+                {"cycles", "Register stages of the interval logic's choice, behind its comparators.", "latency"});
 }
 
 void QuadricParameters::check(const object_processor::ObjectProcessorParameters& triangles, Diagnostics& diagnostics,
@@ -85,7 +87,7 @@ void QuadricParameters::check(const object_processor::ObjectProcessorParameters&
                                      "near plane",
                                      plane_bits, triangles.word_bits));
   for (const std::int64_t width : {word_bits, plane_bits})
-    if ((width + slice_bits - 1) / slice_bits > 32)
+    if (slices_of(static_cast<std::uint64_t>(width)) > 32)
       refuse("slice_bits", fmt::format("{} bits in slices of {} are more than 32 slices", width, slice_bits));
   if (root_integer_bits + root_guard_bits > kMostRootBits)
     refuse("root_guard_bits",

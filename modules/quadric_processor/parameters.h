@@ -35,7 +35,7 @@ struct QuadricParameters {
   std::int64_t word_bits = 48;      // of an EP2: the discriminant
   std::int64_t fraction_bits = 12;  // of its words
   std::int64_t plane_bits = 40;     // of the EP1s of depth and caps, in units of the depth word
-  std::int64_t slice_bits = 12;     // of one adder of these
+  std::int64_t slice_bits = 12;     // of one adder of these, and the longest chain of full adders anywhere
   std::int64_t caps = 2;            // planes that may cut a solid
   std::int64_t root_integer_bits = 10;
   std::int64_t root_guard_bits = 6;
@@ -44,12 +44,12 @@ struct QuadricParameters {
   Scaling scaling = Scaling::object;
   Alignment alignment = Alignment::early_start;
   OnRefusal on_refusal = OnRefusal::error;
-  std::int64_t output_cycles = 2;  // register stages behind the root: multiplication, interval logic
+  std::int64_t output_cycles = 1;  // register stages of the interval logic's choice, behind its comparators
 
   object_processor::RootFormat root() const;
-  unsigned slices() const;               // of the EP2's adders
-  unsigned plane_slices() const;         // of the wide EP1s'
-  std::uint64_t latency_cycles() const;  // from an EP2's word to its fragment: the root's stages and the output's
+  unsigned slices_of(std::uint64_t bits) const;  // of an adder of that many bits: ceil(bits / slice_bits)
+  unsigned slices() const;                       // of the EP2's adders
+  unsigned plane_slices() const;                 // of the wide EP1s'
 
   void declare(parameter::Table& table);
   // What one range cannot say: `file` names the machine file in the diagnostics.

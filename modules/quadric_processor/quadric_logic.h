@@ -20,12 +20,12 @@ struct QuadricRam {
 
 struct QuadricLogic {
   std::vector<QuadricRam> rams;
-  std::uint64_t register_bits = 0;  // accumulators, synchronisation, the root's stages, the output's
+  std::uint64_t register_bits = 0;  // accumulators, synchronisation, what the pipeline behind them holds; no flags
   std::uint64_t adders = 0;         // slices of all adders and subtracters
   std::uint64_t adder_bits = 0;
-  std::uint64_t multipliers = 0;  // of the root with constants
-  std::uint64_t multiplier_bits = 0;
-  std::uint64_t comparators = 0;  // of entry and exit, plane_bits each, and one of the depth word
+  std::uint64_t multipliers = 0;      // of the root with constants
+  std::uint64_t multiplier_bits = 0;  // full adders of their carry-save rows
+  std::uint64_t comparators = 0;      // of entry and exit, plane_bits each, and one of the depth word
   std::uint64_t root_stages = 0;
   std::uint64_t shifters = 0;  // between root and depth, where solids have scales; and of the pre-normalisation unit
 };

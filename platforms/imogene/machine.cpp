@@ -8,6 +8,7 @@
 #include "modules/object_processor/microprogram.h"
 #include "modules/object_processor/second_order_program.h"
 #include "modules/quadric_processor/quadric_logic.h"
+#include "modules/quadric_processor/quadric_pipeline.h"
 #include "modules/set_up/word_format.h"
 #include "src/base/fixed_point.h"
 
@@ -24,7 +25,7 @@ void check_retrace(const Machine& machine) {
     throw InputError({"", 0, "video.vertical_retrace_us",
                       fmt::format("the frame start takes {} pixel clocks, and the vertical retrace has {}",
                                   needs.frame_start.count(), timing.vertical_retrace.count())});
-  if (const Cycles lead = quadric_lead(machine); needs.frame_start + lead > timing.vertical_retrace)
+  if (const Cycles lead = needs.quadric_lead; needs.frame_start + lead > timing.vertical_retrace)
     throw InputError({"", 0, "quadric_processor.alignment",
                       fmt::format("quadrics start their lines {} pixel clocks early, after a frame start of {}, and "
                                   "the vertical retrace has {}; \"delay\" would do",
@@ -58,10 +59,10 @@ BoardNeeds board_needs(const Machine& machine) {
   const video::Timing timing = video::timing(machine.video);
   needs.frame_start = std::max(needs.frame_start, object_processor::second_order_frame_start_cycles());
   needs.quadric_line_start = quadric_processor::line_start_cycles(machine.quadric, timing.fields);
+  needs.quadric_lead = quadric_lead(machine);
   for (std::size_t line = 0; line < timing.fields; ++line)
     needs.quadric_first_lines.at(line) =
-        quadric_lead(machine) +
-        quadric_processor::line_start_cycles(machine.quadric, timing.lines_advanced(line), true);
+        needs.quadric_lead + quadric_processor::line_start_cycles(machine.quadric, timing.lines_advanced(line), true);
   return needs;
 }
 
@@ -128,16 +129,16 @@ std::uint64_t Machine::quadric_processors() const {
   return static_cast<std::uint64_t>(host.computation_units) * static_cast<std::uint64_t>(quadric.per_unit);
 }
 
-Cycles quadric_delay(const Machine& machine) {
-  if (machine.quadric.per_unit == 0 || machine.quadric.alignment == quadric_processor::Alignment::early_start)
-    return Cycles(0);
-  return Cycles(machine.quadric.latency_cycles());
+Cycles quadric_latency(const Machine& machine) {
+  if (machine.quadric.per_unit == 0) return Cycles(0);
+  return Cycles(quadric_processor::quadric_pipeline(machine.quadric, machine.object_processor).latency_cycles());
 }
 
-Cycles quadric_lead(const Machine& machine) {
-  if (machine.quadric.per_unit == 0) return Cycles(0);
-  return Cycles(machine.quadric.latency_cycles()) - quadric_delay(machine);
+Cycles quadric_delay(const Machine& machine) {
+  return machine.quadric.alignment == quadric_processor::Alignment::early_start ? Cycles(0) : quadric_latency(machine);
 }
+
+Cycles quadric_lead(const Machine& machine) { return quadric_latency(machine) - quadric_delay(machine); }
 
 Cycles quadric_line_starts(const Machine& machine) {
   const video::Timing timing = video::timing(machine.video);

@@ -53,9 +53,14 @@ struct BoardNeeds {
   Cycles quadric_line_start{};  // of quadrics, where there are any: with the steps over the lines of the other field
   // Of the first line of each field, with what they begin earlier than triangles' are.
   std::array<Cycles, 2> quadric_first_lines{};
+  Cycles quadric_lead{};  // by which quadrics begin their lines before triangles do: the retrace holds that too
   Cycles copy() const { return skew + frame_start; }  // until the last processor has copied
+  Cycles retrace() const { return copy() + quadric_lead; }
 };
 BoardNeeds board_needs(const Machine& machine);
+
+// From a quadric's words to its fragment, which a triangle has at once; 0 where there are no quadrics.
+Cycles quadric_latency(const Machine& machine);
 
 // By how much quadrics are later than triangles; nothing where they start earlier, or there are none.
 Cycles quadric_delay(const Machine& machine);

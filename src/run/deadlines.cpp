@@ -36,7 +36,7 @@ Slack line_slack(const video::Timing& timing, const BoardNeeds& needs, std::size
 }
 
 Slack retrace_slack(const video::Timing& timing, const BoardNeeds& needs, Cycles table_load) {
-  return less_of({timing.vertical_retrace, needs.copy(), "frame start"},
+  return less_of({timing.vertical_retrace, needs.retrace(), "frame start"},
                  {timing.vertical_retrace, table_load, "table load"});
 }
 
@@ -45,7 +45,7 @@ DeadlineMeter::DeadlineMeter(const imogene::Imogene& platform)
       host_clock_(platform.cost().clock()),
       needs_(imogene::board_needs(platform.machine())) {
   worst_.retrace.available_cycles = timing_.vertical_retrace.count();
-  worst_.retrace.boards_cycles = needs_.copy().count();
+  worst_.retrace.boards_cycles = needs_.retrace().count();
   worst_.retrace.slack_cycles = kNothingYet;
   worst_.lines.available_cycles = timing_.horizontal_blanking.count();
   worst_.lines.slack_cycles.assign(static_cast<std::size_t>(platform.machine().video.lines), kNothingYet);

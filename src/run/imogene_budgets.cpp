@@ -32,20 +32,23 @@ void add_display_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
                          timing.fields > 1 ? "twice (" : "", slices, timing.fields > 1 ? "), for two lines" : "",
                          timing.line.count(), machine.video.columns),
              "object_processor.slice_bits, video.interlaced, video.columns, video.pixel_clock_ns"));
-  budgets.push_back(budget("frame_start", as_real(imogene::board_needs(machine).frame_start), retrace, "cycles",
-                           machine.quadric.per_unit > 0
-                               ? "the copy's 14 steps of a second order processor; vertical retrace"
-                               : "the copy's 8 steps (004, section 5.2.2); vertical retrace",
-                           "video.vertical_retrace_us"));
-  const Cycles skew =
-      decision_unit::skew(machine.decision_unit.topology, machine.processors(),
-                          Cycles(static_cast<std::uint64_t>(machine.object_processor.comparator_cycles)));
+  const imogene::BoardNeeds needs = imogene::board_needs(machine);
+  const bool leads = needs.quadric_lead > Cycles(0);
+  const std::string lead =
+      leads ? fmt::format("{} by which quadrics start early; ", needs.quadric_lead.count()) : std::string();
+  const std::string moves_lead = leads ? ", quadric_processor.alignment" : "";
+  budgets.push_back(budget("frame_start", as_real(needs.frame_start + needs.quadric_lead), retrace, "cycles",
+                           (machine.quadric.per_unit > 0 ? "the copy's 14 steps of a second order processor; "
+                                                         : "the copy's 8 steps (004, section 5.2.2); ") +
+                               lead + "vertical retrace",
+                           "video.vertical_retrace_us" + moves_lead));
   budgets.push_back(
-      budget("pipeline_skew", as_real(skew + imogene::board_needs(machine).frame_start), retrace, "cycles",
-             "the last processor works later than the first by one comparator each (0 in a tree), then "
-             "copies; vertical retrace",
+      budget("pipeline_skew", as_real(needs.retrace()), retrace, "cycles",
+             "the last processor works later than the first by one comparator each (0 in a tree), then copies; " +
+                 lead + "vertical retrace",
              "decision_unit.topology, host.computation_units, host.processors_per_unit, quadric_processor.per_unit, "
-             "video.vertical_retrace_us"));
+             "video.vertical_retrace_us" +
+                 moves_lead));
 }
 
 // What a quadric processor must do before a line's pixels, in time.
@@ -69,14 +72,6 @@ void add_quadric_budgets(const Imogene& platform, std::vector<Budget>& budgets) 
           ? "quadric_processor.slice_bits, quadric_processor.word_bits, video.interlaced, video.pixel_clock_ns"
           : "quadric_processor.slice_bits, quadric_processor.plane_bits, video.interlaced, "
             "video.pixel_clock_ns"));
-  const object_processor::ObjectProcessorParameters& triangles = machine.object_processor;
-  const std::int64_t slice = std::min(quadric.slice_bits, std::max(quadric.word_bits, quadric.plane_bits));
-  budgets.push_back(budget("quadric_adder_delay",
-                           triangles.adder_ns + triangles.adder_ns_per_bit * static_cast<double>(slice),
-                           timing.clock.period_ns(), "ns",
-                           fmt::format("{} + {} a bit x {} bits; the pixel clock's period", triangles.adder_ns,
-                                       triangles.adder_ns_per_bit, slice),
-                           "quadric_processor.slice_bits, object_processor.adder_ns_per_bit, video.pixel_clock_ns"));
   std::uint64_t used = platform.solid_slots().dropped;
   for (const auto& owners : platform.solid_slots().boards) used += owners.size();
   budgets.push_back(budget("quadrics", static_cast<double>(used), static_cast<double>(machine.quadric_processors()),
@@ -159,6 +154,15 @@ const char* unit_of(const std::string& budget) {
   return budget.starts_with("quadric_") ? "quadric processors" : "object processors";
 }
 
+// What a budget of a quadric processor's delays is of; null of any other.
+const char* quadric_delay_of(const std::string& budget) {
+  if (budget == "quadric_adder_delay") return "adder delay in a pixel clock";
+  if (budget == "quadric_root_delay") return "the root's subtracter in a pixel clock";
+  if (budget == "quadric_sum_delay") return "sum of depth and root in a pixel clock";
+  if (budget == "quadric_multiplier_delay") return "multiplier's adders in a pixel clock";
+  return nullptr;
+}
+
 Bottleneck find_bottleneck(Imogene& platform, const std::vector<Budget>& budgets, const HostLoad& host) {
   const imogene::Machine& machine = platform.machine();
   const std::size_t fields = platform.timing().fields;
@@ -187,8 +191,8 @@ Bottleneck find_bottleneck(Imogene& platform, const std::vector<Budget>& budgets
            utilisation);
     else if (b.name == "adder_delay")
       take(worst, "object processors", "adder delay in a pixel clock", utilisation);
-    else if (b.name == "quadric_adder_delay")
-      take(worst, "quadric processors", "adder delay in a pixel clock", utilisation);
+    else if (const char* const delay = quadric_delay_of(b.name); delay != nullptr)
+      take(worst, "quadric processors", delay, utilisation);
     else if (b.name == "table_access")
       take(worst, "shading processor", "a table's access in a pixel clock", utilisation);
     else if (b.name == "table_store")

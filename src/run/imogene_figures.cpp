@@ -5,6 +5,7 @@
 #include "modules/object_processor/microprogram.h"
 #include "modules/object_processor/second_order_program.h"
 #include "modules/quadric_processor/quadric_logic.h"
+#include "modules/quadric_processor/quadric_pipeline.h"
 #include "modules/quadric_processor/quadric_words.h"
 #include "modules/shading/loader_budget.h"
 #include "src/run/imogene_budgets.h"
@@ -50,7 +51,7 @@ void add_quadric_memories(const imogene::Machine& machine, std::vector<Memory>& 
                                        static_cast<std::uint64_t>(machine.object_processor.normal_bits),
                                        machine.material_bits()};
   memories.push_back({"delay of triangles' fragments", static_cast<std::uint64_t>(machine.host.computation_units),
-                      machine.quadric.latency_cycles(), width.bits()});
+                      imogene::quadric_latency(machine).count(), width.bits()});
 }
 
 void add_quadric_logic(const imogene::Machine& machine, std::vector<Logic>& figures) {
@@ -62,10 +63,17 @@ void add_quadric_logic(const imogene::Machine& machine, std::vector<Logic>& figu
   figures.push_back({"quadric processors: adder width", processors * logic.adder_bits, "bits"});
   figures.push_back(
       {"quadric processors: multipliers of root and constant", processors * logic.multipliers, "multipliers"});
+  figures.push_back(
+      {"quadric processors: carry-save rows of these", processors * logic.multiplier_bits, "full adders"});
   figures.push_back({"quadric processors: comparators", processors * logic.comparators, "comparators"});
   figures.push_back({"quadric processors: shifters", processors * logic.shifters, "shifters"});
   figures.push_back({"quadric processor: stages of the root", logic.root_stages, "stages"});
-  figures.push_back({"quadric processor: later than a triangle", machine.quadric.latency_cycles(), "pixel clocks"});
+  const auto pipeline = quadric_processor::quadric_pipeline(machine.quadric, machine.object_processor);
+  figures.push_back({"quadric processor: root", pipeline.root_cycles, "pixel clocks"});
+  figures.push_back({"quadric processor: depth, until all is compared", pipeline.depth_cycles(), "pixel clocks"});
+  figures.push_back({"quadric processor: normal, root included", pipeline.root_cycles + pipeline.multiplier_cycles(),
+                     "pixel clocks"});
+  figures.push_back({"quadric processor: later than a triangle", pipeline.latency_cycles(), "pixel clocks"});
 }
 
 }  // namespace

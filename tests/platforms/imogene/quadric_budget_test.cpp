@@ -2,67 +2,14 @@
 // by its parameter.
 #include <fmt/format.h>
 
-#include <map>
-
+#include "tests/platforms/imogene/quadric_numbers.h"
 #include "tests/platforms/imogene/simulation.h"
 #include "tests/platforms/imogene/solid_scenes.h"
 
 namespace rastertlm::test {
 namespace {
 
-constexpr std::uint64_t kFrame = 333'333;  // pixel clocks of 60 ns
-constexpr std::uint64_t kRetrace = 10'000;
-
-// The numbers that a test changes; by default those of the machine file.
-struct Machine {
-  std::uint64_t units = 8, triangles = 128, quadrics = 64;
-  std::uint64_t word = 48, plane = 40, slice = 12, caps = 6, factor = 24;
-  std::uint64_t root_integer = 10, root_guard = 6, output = 2;
-  std::uint64_t normal = 12;
-  bool half_unit = true, scaled = true, delay = false, kept = true;
-  std::uint64_t columns = 64, lines = 64, fields = 1;
-
-  std::vector<std::string> set() const {
-    const auto value = [](const char* key, std::uint64_t number) { return fmt::format("{}={}", key, number); };
-    const std::string q = "quadric_processor.";
-    std::vector<std::string> all{value("host.computation_units", units), value("host.processors_per_unit", triangles)};
-    for (const auto& [key, number] : std::map<std::string, std::uint64_t>{{"per_unit", quadrics},
-                                                                          {"word_bits", word},
-                                                                          {"plane_bits", plane},
-                                                                          {"slice_bits", slice},
-                                                                          {"caps", caps},
-                                                                          {"multiplier_bits", factor},
-                                                                          {"root_integer_bits", root_integer},
-                                                                          {"root_guard_bits", root_guard},
-                                                                          {"output_cycles", output}})
-      all.push_back(value((q + key).c_str(), number));
-    all.push_back(q + "root_reading=" + (half_unit ? "half_unit" : "floor"));
-    all.push_back(q + "scaling=" + (scaled ? "object" : "fixed"));
-    all.push_back(q + "alignment=" + (delay ? "delay" : "early_start"));
-    all.push_back(q + "on_refusal=drop");
-    all.push_back(value("object_processor.normal_bits", normal));
-    all.push_back(value("video.columns", columns));
-    all.push_back(value("video.lines", lines));
-    all.push_back(std::string("video.interlaced=") + (fields == 2 ? "true" : "false"));
-    all.push_back(std::string("host.swap=") + (kept ? "global" : "unconditional"));
-    return all;
-  }
-
-  std::uint64_t slices(std::uint64_t bits) const { return (bits + slice - 1) / slice; }
-  std::uint64_t line() const { return (kFrame - kRetrace) / (lines / fields); }
-  std::uint64_t latency() const { return root_integer + root_guard + output; }
-  std::uint64_t link() const { return 24 + 3 * normal + 4; }
-  // Of an EP2, to a line `passed` lines on.
-  std::uint64_t line_start(std::uint64_t passed) const {
-    const std::uint64_t n = slices(word);
-    return n + 5 + passed * (3 * n + 12);
-  }
-  // After a retrace the EP2 shows the line that it was loaded for, and line 1, of the second field, is one on; the EP1s
-  // of depth step to it, which takes longer.
-  std::uint64_t first_line_start(std::uint64_t line_number) const {
-    return std::max(line_start(line_number), (line_number + 1) * (2 * slices(plane) + 5));
-  }
-};
+using Machine = QuadricNumbers;
 
 class QuadricBudgetTest : public SimulationTest {
  protected:
@@ -112,14 +59,10 @@ void expect_memories(const run::Result& result, const Machine& m) {
   words("normals of caps", 3 * m.caps, 24, 0);
   words("control", 1, 4 + 2 + 6 + 2 * m.caps, 0);  // material, part, shift, what is kept at each cap
 
-  // A stage of the root holds what it has found, its remainder and what nobody has taken yet: at most 3 words of the
-  // result's width and 2 bits; at least the bits of the first and the last.
-  const std::uint64_t root_bits = m.root_integer + m.root_guard;
-  const std::uint64_t others = 2 * accumulator(m.word, m.slice) + (1 + m.caps) * accumulator(m.plane, m.slice) +
-                               3 * accumulator(24, 12) + m.output * m.link();
+  const std::uint64_t accumulators =
+      2 * accumulator(m.word, m.slice) + (1 + m.caps) * accumulator(m.plane, m.slice) + 3 * accumulator(24, 12);
   const std::uint64_t registers = named(result.memories, "quadric processor registers").bits_per_word;
-  EXPECT_GE(registers, others + root_bits * root_bits);
-  EXPECT_LE(registers, others + root_bits * (3 * root_bits + 2));
+  EXPECT_EQ(registers, accumulators + m.pipeline_bits());
   EXPECT_EQ(named(result.memories, "quadric processor registers").total_bits(), processors * registers);
   if (m.delay)
     EXPECT_EQ(named(result.memories, "delay of triangles' fragments").total_bits(), m.units * m.latency() * m.link());
@@ -129,24 +72,30 @@ void expect_memories(const run::Result& result, const Machine& m) {
 
 void expect_logic(const run::Result& result, const Machine& m) {
   const std::uint64_t processors = m.units * m.quadrics;
-  const std::uint64_t stages = m.root_integer + m.root_guard;
+  const std::uint64_t stages = m.root_bits();
   // Two accumulators of the EP2, one of each plane and of each component of the normal; a subtracter a stage; the two
-  // depths; the three components less or plus the root's part.
-  const std::uint64_t adders = 2 * m.slices(m.word) + (1 + m.caps) * m.slices(m.plane) + 3 * 2 + stages + 2 + 3;
+  // depths; behind the rows of the normal.
+  const std::uint64_t adders = 2 * m.slices(m.word) + (1 + m.caps) * m.slices(m.plane) + 3 * 2 + m.root_clocks() +
+                               2 * m.slices(m.plane) + 3 * m.slices(m.joined());
   EXPECT_EQ(named(result.logic, "quadric processors: adder slices").count, processors * adders);
-  std::uint64_t bits = 2 * m.word + (1 + m.caps) * m.plane + 3 * 24 + 2 * m.plane + 3 * 24;
+  std::uint64_t bits = 2 * m.word + (1 + m.caps) * m.plane + 3 * 24 + 2 * m.plane + 3 * m.joined();
   bits += stages * (stages + 1) / 2 + 2 * stages;  // stage i subtracts from a remainder of i + 2 bits
   EXPECT_EQ(named(result.logic, "quadric processors: adder width").count, processors * bits);
   EXPECT_EQ(named(result.logic, "quadric processors: multipliers of root and constant").count, 3 * processors);
-  // Entry against every cap and the near plane, exit against every cap and the far one, entry against exit, and depth
-  // on the link.
-  EXPECT_EQ(named(result.logic, "quadric processors: comparators").count, processors * (2 * (m.caps + 1) + 2));
+  std::uint64_t rows = 0;  // each a bit shorter than the one before
+  for (std::uint64_t row = 0; row < m.read_bits(); ++row) rows += m.normal_word() - row;
+  EXPECT_EQ(named(result.logic, "quadric processors: carry-save rows of these").count, 3 * processors * rows);
+  // Every cap in two trees; five of entry, exit and roots; and depth on the link.
+  EXPECT_EQ(named(result.logic, "quadric processors: comparators").count, processors * (2 * m.caps + 5 + 1));
   // Normals of 24 bits are shifted by up to 24 - 1 - (normal - 1): as many shifters of 1, 2, 4, .. as that has bits.
   std::uint64_t shifters = 0;
   while ((24 - m.normal) >> shifters != 0) ++shifters;
   EXPECT_EQ(named(result.logic, "quadric processors: shifters").count,
             processors * (3 * shifters + (m.scaled ? 1 : 0)));
   EXPECT_EQ(named(result.logic, "quadric processor: stages of the root").count, stages);
+  EXPECT_EQ(named(result.logic, "quadric processor: root").count, m.root_clocks());
+  EXPECT_EQ(named(result.logic, "quadric processor: depth, until all is compared").count, m.depth_clocks());
+  EXPECT_EQ(named(result.logic, "quadric processor: normal, root included").count, m.normal_clocks());
   EXPECT_EQ(named(result.logic, "quadric processor: later than a triangle").count, m.latency());
   std::uint64_t levels = 0;
   while ((1ULL << levels) < m.units * (m.triangles + m.quadrics)) ++levels;
@@ -179,17 +128,29 @@ void expect_deadlines(const run::Result& result, const Machine& m) {
                                    : blanking - m.line_start(m.fields);
     EXPECT_EQ(result.deadlines.lines.slack_cycles.at(line), static_cast<std::int64_t>(left)) << line;
   }
+  // The copy, and the first line's early start.
+  const std::uint64_t boards = 14 + (m.delay ? 0 : m.latency());
+  EXPECT_EQ(result.deadlines.retrace.boards_cycles, boards);
+  EXPECT_EQ(result.deadlines.retrace.slack_cycles, static_cast<std::int64_t>(retrace - boards));
 }
 
 void expect_all(const run::Result& result, const Machine& m, std::uint64_t frames = 2) {
   expect_budget(result, "quadrics", SolidScene::kSolids, static_cast<double>(m.units * m.quadrics));
   expect_budget(result, "quadric_line_start", static_cast<double>(m.line_start(m.fields)),
                 static_cast<double>(m.line() - m.columns));
-  // 4 ns a bit of the widest slice.
-  const std::uint64_t widest = std::min(m.slice, std::max(m.word, m.plane));
-  expect_budget(result, "quadric_adder_delay", 4.0 * static_cast<double>(widest), 60.0);
+  // 4 ns a bit of the widest slice of each.
+  const auto delay = [&](const char* name, std::uint64_t bits) {
+    expect_budget(result, name, 4.0 * static_cast<double>(std::min(m.slice, bits)), 60.0);
+  };
+  delay("quadric_adder_delay", std::max(m.word, m.plane));
+  delay("quadric_root_delay", m.root_bits() + 2);
+  delay("quadric_sum_delay", m.plane);
+  delay("quadric_multiplier_delay", std::max(m.read_bits(), m.joined()));
   const std::uint64_t lines_of_field = m.lines / m.fields;
-  expect_budget(result, "frame_start", 14, static_cast<double>(kFrame - m.line() * lines_of_field));
+  const auto retrace = static_cast<double>(kFrame - m.line() * lines_of_field);
+  const double boards = 14.0 + (m.delay ? 0.0 : static_cast<double>(m.latency()));
+  expect_budget(result, "frame_start", boards, retrace);
+  expect_budget(result, "pipeline_skew", boards, retrace);  // a tree
   expect_memories(result, m);
   expect_logic(result, m);
   expect_units(result, m, frames);
@@ -214,6 +175,20 @@ TEST_F(QuadricBudgetTest, EachParameterMovesItsOwn) {
          m.root_integer = 12;
          m.root_guard = 3;
        }},
+      {"a root that caps are later than",
+       [](Machine& m) {
+         m.root_integer = 2;
+         m.root_guard = 0;
+         m.slice = 7;
+       }},
+      {"a normal that is later than depth",
+       [](Machine& m) {
+         m.factor = 32;
+         m.plane = 25;
+         m.slice = 8;
+         m.root_integer = 16;
+         m.root_guard = 8;
+       }},
       {"output", [](Machine& m) { m.output = 5; }},
       {"floor", [](Machine& m) { m.half_unit = false; }},
       {"fixed scale", [](Machine& m) { m.scaled = false; }},
@@ -233,6 +208,35 @@ TEST_F(QuadricBudgetTest, EachParameterMovesItsOwn) {
     const std::vector<std::string> fast{"host.sustained_mflops=50.0"};
     expect_all(result(machine, fast), machine);
   }
+}
+
+// The machine file's own all fit. Slices of 16 bits take 64 ns of 60 wherever something is as wide, of 15 bits 60.
+TEST_F(QuadricBudgetTest, EachPartThatIsTooSlowSaysNo) {
+  const std::vector<std::string> delays{"quadric_adder_delay", "quadric_root_delay", "quadric_sum_delay",
+                                        "quadric_multiplier_delay"};
+  const auto too_slow = [&](const run::Result& shown) {
+    std::vector<std::string> names;
+    for (const std::string& name : delays)
+      if (!named(shown.budgets, name).fits) names.push_back(name);
+    std::size_t limits = 0;
+    for (const std::string& limit : shown.answer.limits) limits += limit.find("_delay needs") != std::string::npos;
+    EXPECT_EQ(limits, names.size());
+    EXPECT_EQ(shown.answer.display_works, names.empty());
+    return names;
+  };
+  EXPECT_EQ(too_slow(result({})), std::vector<std::string>{});
+  Machine m;
+  m.slice = 16;
+  EXPECT_EQ(too_slow(result(m)), delays);
+  m.root_integer = 10;
+  m.root_guard = 3;  // subtracters of 15 bits, 60 ns; 14 rows, but 26 bits behind them
+  EXPECT_EQ(too_slow(result(m)), (std::vector<std::string>{delays[0], delays[2], delays[3]}));
+  m.factor = 12;  // 14 bits behind the rows
+  EXPECT_EQ(too_slow(result(m)), (std::vector<std::string>{delays[0], delays[2]}));
+  m.root_guard = 4;
+  EXPECT_EQ(too_slow(result(m)), (std::vector<std::string>{delays[0], delays[1], delays[2]}));
+  m.slice = 15;
+  EXPECT_EQ(too_slow(result(m)), std::vector<std::string>{});
 }
 
 // Adders of 48 bits take 192 ns, and the machine's clock is 60: what limits it is named.
@@ -273,7 +277,7 @@ TEST_F(QuadricBudgetTest, TheLineStartIsThatOfTheSlowestOfAProcessor) {
 }
 
 // 1 / (62.5 Hz x 50 ns) are 320,000 clocks: 30 lines of 10,666, and 20 of retrace. The copy takes 14 of them, and
-// quadrics begin their lines 18 before triangles do.
+// quadrics begin their lines 29 before triangles do.
 TEST_F(QuadricBudgetTest, AnEarlyStartFitsTheRetraceOrIsRefused) {
   const std::vector<std::string> bare{"video.refresh_hz=62.5", "video.pixel_clock_ns=50.0",
                                       "video.vertical_retrace_us=0.0"};
@@ -284,8 +288,9 @@ TEST_F(QuadricBudgetTest, AnEarlyStartFitsTheRetraceOrIsRefused) {
     FAIL() << "not refused";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what())
-                  .find("quadrics start their lines 18 pixel clocks early, after a frame start of "
-                        "14, and the vertical retrace has 20"),
+                  .find(fmt::format("quadrics start their lines {} pixel clocks early, after a frame start of "
+                                    "14, and the vertical retrace has 20",
+                                    m.latency())),
               std::string::npos)
         << error.what();
   }

@@ -162,11 +162,14 @@ TEST_F(SolidIdentityTest, InterlacedVideoWeavesThePicturesOfTwoPoses) {
     }
 }
 
-// A root of 10 + 6 bits, a stage each, and two stages behind it.
+// A root of 10 + 6 bits, a stage each, ten of a clock and six of two; the shifter, four slices of depth, a clock of
+// comparisons; and the choice. In slices of 40 bits, a clock for each of these.
 TEST_F(SolidIdentityTest, AlignmentMovesTheLatencyAndNoPixel) {
   const Simulated early = shown({});
   for (const auto& [set, latency] : std::vector<std::pair<std::vector<std::string>, std::uint64_t>>{
-           {{}, 10 + 6 + 2}, {{"quadric_processor.output_cycles=7"}, 10 + 6 + 7}}) {
+           {{}, 10 + 6 * 2 + 1 + 4 + 1 + 1},
+           {{"quadric_processor.output_cycles=7"}, 10 + 6 * 2 + 1 + 4 + 1 + 7},
+           {{"quadric_processor.slice_bits=40"}, 16 + 1 + 1 + 1 + 1}}) {
     std::vector<std::string> delayed = set;
     delayed.emplace_back("quadric_processor.alignment=delay");
     const Simulated delay = shown(delayed);
