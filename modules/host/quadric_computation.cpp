@@ -77,11 +77,20 @@ void QuadricComputation::renew(Solid& solid, const FrameWork& work) {
 
 void QuadricComputation::refuse(const Solid& solid, const FrameWork& work,
                                 const set_up::QuadricProblem& problem) const {
-  std::string message =
-      fmt::format("{} (object {} of the scene, frame {})", problem.message, solid.object + 1, work.animation_frame);
-  if (problem.width > 0) message += fmt::format("; {} = {} would do", problem.key, problem.width);
+  const std::string object = fmt::format("object[{}]", solid.object);
+  std::string message = problem.message;
+  if (problem.key.empty()) {
+    message += fmt::format(" (frame {})", work.animation_frame);
+  } else {
+    message += fmt::format(" ({} of the scene, frame {})", object, work.animation_frame);
+    if (problem.width > 0) message += fmt::format("; {} = {} would do", problem.key, problem.width);
+  }
   message += "; quadric_processor.on_refusal = \"drop\" leaves out what cannot be drawn";
-  throw InputError({"", 0, problem.key.empty() ? "quadric_processor.on_refusal" : problem.key, std::move(message)});
+  if (problem.key.empty()) throw InputError({"", 0, object, std::move(message)});
+  throw InputError(std::vector<Diagnostic>{
+      {"", 0, problem.key, std::move(message)},
+      {"", 0, object,
+       fmt::format("is the solid that {} is too small for, in frame {}", problem.key, work.animation_frame)}});
 }
 
 void QuadricComputation::put(const Solid& solid, bool park, const quadric_processor::QuadricWords& words) {

@@ -40,7 +40,8 @@ class QuadricComputation {
                      const std::vector<SlotOwner>& owners);
 
   // What to write, in the order of owners. `timed`: `before` is kept. Throws InputError where a solid is refused and
-  // on_refusal is "error": it names the object, the frame, and the parameter with the value that would do.
+  // on_refusal is "error": it names the object as the scene file has it ("object[0]"), the frame, and the parameter
+  // with the value that would do, if there is one.
   const std::vector<QuadricLoad>& set_up(const FrameWork& work, bool timed = true);
   // One a load: operations of set_up up to it. It is written then.
   const std::vector<geometry::OperationCounts>& before() const { return before_; }

@@ -1,6 +1,7 @@
 #include "src/config/unknown_key.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <vector>
@@ -68,6 +69,20 @@ std::string nearest_path(const std::string& path, const std::vector<std::string>
   return nearest_word(path, known);
 }
 
+// Keys and lists called `leaf` of the elements of lists below `table`: "'object[].radius'".
+void add_elements_keys(const parameter::Table& table, const std::string& prefix, const std::string& leaf,
+                       std::vector<std::string>& found) {
+  for (const auto& list : table.lists()) {
+    const parameter::Table element = list.example();
+    const std::string below = prefix + list.path + "[].";
+    if (element.find(leaf) != nullptr) add_once(found, fmt::format("'{}{}'", below, leaf));
+    if (element.find_list(leaf) != nullptr)
+      add_once(found,
+               fmt::format("'{}{}', written [[{}.{}]] behind its [[{}]]", below, leaf, list.path, leaf, list.path));
+    add_elements_keys(element, below, leaf, found);
+  }
+}
+
 }  // namespace
 
 std::string unknown_key_message(const std::string& path, const Place& place) {
@@ -76,6 +91,10 @@ std::string unknown_key_message(const std::string& path, const Place& place) {
   if (const std::string written = with_brackets(path); !written.empty())
     return message + fmt::format("; an element of a list is written '{}'", printable(written));
   const std::string rest = place.rest.substr(0, place.rest.find('['));
+  std::vector<std::string> of_elements;
+  if (rest.find('.') == std::string::npos) add_elements_keys(*place.table, place.prefix, rest, of_elements);
+  if (!of_elements.empty())
+    return message + fmt::format("; known of a list's elements: {}", fmt::join(of_elements, ", "));
   const std::vector<std::string> known = known_paths(*place.table);
   if (const std::string near = nearest_path(rest, known); !near.empty())
     return message + fmt::format("; nearest known: '{}{}'", place.prefix, near);

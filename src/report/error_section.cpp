@@ -85,10 +85,14 @@ TextTable parts_table(bool as_seen) {
   return TextTable(columns, "  ");
 }
 
+// What each pixel is compared of.
+const char* thing(const run::Result& result) { return result.modelled.solids_made > 0 ? "object" : "triangle"; }
+
+// {}: what is compared.
 constexpr const char* kMeanings =
     "  silhouettes: two pixels on either side of where the exact picture's surface ends; highlights: of the others, "
     "those to which it adds 32 levels of specular light; inside: the rest.\n"
-    "  compared, missing, extra, other triangle, and of these those whose depth belongs to nothing seen there (order), "
+    "  compared, missing, extra, other {}, and of these those whose depth belongs to nothing seen there (order), "
     "in pixels; largest and RMSE in levels, PSNR in dB; over two levels in % of the compared.\n"
     "  edges: RMS in levels by which the slope of the levels jumps otherwise than it should where two triangles of a "
     "surface meet (Mach bands); flicker: RMS change of the error from frame to frame where the exact levels stand "
@@ -114,7 +118,7 @@ std::string parts_section(const run::Result& result, const std::vector<reference
   std::string text = fmt::format("\n  Where they differ{}\n", many ? ", the worst of the frames" : "");
   text += worst.text();
   if (many) text += "\n  Where they differ, the mean of the frames\n" + mean.text();
-  text += kMeanings;
+  text += fmt::format(kMeanings, thing(result));
   if (as_seen)
     text += fmt::format(
         "  FLIP (0 .. 1, at {:.6g} pixels a degree) and CIEDE2000 (1: just seen), of all pixels there: mean, and what "
@@ -140,9 +144,9 @@ std::string error_section(const run::Result& result) {
   TextTable table({{"reference"},
                    {"missing", Align::right},
                    {"extra", Align::right},
-                   {"other triangle", Align::right},
+                   {fmt::format("other {}", thing(result)), Align::right},
                    {"largest", Align::right},
-                   {"same triangle", Align::right},
+                   {fmt::format("same {}", thing(result)), Align::right},
                    {"RMSE", Align::right},
                    {"PSNR", Align::right},
                    {"with outlines", Align::right},

@@ -121,8 +121,8 @@ TEST_F(QuadricsTest, WhatHasNoRootIsRefusedOrLeftOut) {
   const std::string around = "type = \"sphere\"\nradius = 10.0\n";  // the eye is on it
   for (const auto& [view, object] : {std::pair(kParallel, paraboloid), std::pair(kPerspective, around)}) {
     refused(view, object,
-            {"machine.toml: quadric_processor.on_refusal: ", "seen along its axis, or the eye is on its surface",
-             "turned by a little", "(object 1 of the scene, frame 0)"});
+            {"scene.toml:15: object[0]: a solid is seen along its axis, or the eye is on its surface",
+             "turned by a little, can be drawn (frame 0); quadric_processor.on_refusal = \"drop\""});
     const Outcome outcome = render(view, object, {"--set", "quadric_processor.on_refusal=drop"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("up to 1 solids a frame cannot be shown by the quadric processors"));
@@ -130,9 +130,11 @@ TEST_F(QuadricsTest, WhatHasNoRootIsRefusedOrLeftOut) {
   EXPECT_GT(covered(kPerspective, paraboloid), 200);
   // Nearly so its roots are far away: the word is named, and its width does.
   const std::string nearly = "type = \"paraboloid\"\nheight = 2.0\nrotate_deg = [90.1, 0.0, 0.0]\n";
-  refused(kParallel, nearly,
-          {"quadric_processor.root_integer_bits: is 10; the root of a solid needs 12 bits here",
-           "quadric_processor.root_integer_bits = 12 would do"});
+  refused(
+      kParallel, nearly,
+      {"quadric_processor.root_integer_bits: is 10; the root of a solid needs 12 bits here",
+       "(object[0] of the scene, frame 0); quadric_processor.root_integer_bits = 12 would do",
+       "scene.toml:15: object[0]: is the solid that quadric_processor.root_integer_bits is too small for, in frame 0"});
   EXPECT_EQ(render(kParallel, nearly, {"--set", "quadric_processor.root_integer_bits=12"}).exit_code, 0);
 }
 
@@ -184,12 +186,31 @@ TEST_F(QuadricsTest, PlanesThatLeaveNothing) {
   }
 }
 
+// Which object it is, counted as --set counts; and the line where it stands.
+TEST_F(QuadricsTest, TheObjectThatIsRefusedIsNamed) {
+  const std::string ball = "type = \"sphere\"\n";
+  const std::string two = ball + "radius = 0.1\n[[object]]\nmaterial = \"clay\"\n" + ball + "radius = 10.0\n";
+  const Outcome outcome = render(kPerspective, two, {"--set", "quadric_processor.per_unit=2"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("scene.toml:19: object[1]: a solid is seen along its axis, or the eye"));
+  EXPECT_EQ(
+      render(kPerspective, two, {"--set", "quadric_processor.per_unit=2", "--set", "object[1].radius=1.0"}).exit_code,
+      0);
+}
+
+TEST_F(QuadricsTest, APlaneOfNoObject) {
+  refused(kParallel, "type = \"sphere\"\n[[plane]]\nnormal = [1.0, 0.0, 0.0]\ndistance = 0.5\n",
+          {"scene.toml:17: plane: unknown key 'plane'; known of a list's elements: 'object[].plane', written "
+           "[[object.plane]] behind its [[object]]"});
+}
+
 TEST_F(QuadricsTest, MorePlanesThanCaps) {
   const std::string plane = "[[object.plane]]\nnormal = [1.0, 0.0, 0.0]\ndistance = 0.5\n";
   const std::string four = "type = \"cylinder\"\n" + plane + plane;
   refused(kParallel, four,
           {"machine.toml:11: quadric_processor.caps: is 3; a solid is cut by 4 planes",
-           "quadric_processor.caps = 4 would do"});
+           "quadric_processor.caps = 4 would do",
+           "scene.toml:15: object[0]: is the solid that quadric_processor.caps is too small for, in frame 0"});
   EXPECT_EQ(render(kParallel, four, {"--set", "quadric_processor.caps=4"}).exit_code, 0);
   refused(kParallel, four + plane + plane + plane, {"7 planes, its ends counted, more than the 6 that there can be"});
 }

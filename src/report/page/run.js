@@ -209,6 +209,11 @@ function slackSection() {
       ]));
 }
 
+// What each pixel is compared of; reports of machines without boards do not know solids.
+function thing() {
+  return (report.modelled.solids || {made: 0}).made > 0 ? 'object' : 'triangle';
+}
+
 function errorSection() {
   const measured = report.images.filter((image) => image.errors.length > 0);
   if (measured.length === 0) return;
@@ -221,13 +226,13 @@ function errorSection() {
     ['sphere', 'the spheres themselves, where meshes stand for them'],
   ];
   section('Distance from the exact picture',
-      table(['>frame', 'reference', '>missing', '>extra', '>other triangle', '>largest', '>RMSE', '>PSNR', '>with outlines', '>over one level'],
+      table(['>frame', 'reference', '>missing', '>extra', '>other ' + thing(), '>largest', '>RMSE', '>PSNR', '>with outlines', '>over one level'],
           measured.flatMap((image) => image.errors.map((error) => [
             String(image.frame), error.reference, grouped(error.covered_missing), grouped(error.covered_extra), grouped(error.wrong_object),
             grouped(error.max_level), quantity(error.rmse_level), decibels(error.psnr_db), decibels(error.psnr_outline_db),
             quantity(error.over_one_level_percent) + ' %',
           ])), {tall: true}),
-      note('Missing, extra and other triangle in pixels; largest and RMSE in levels (1/255 of a channel). ' +
+      note('Missing, extra and other ' + thing() + ' in pixels; largest and RMSE in levels (1/255 of a channel). ' +
           meanings.filter(([name]) => measured.some((image) => image.errors.some((error) => error.reference === name)))
               .map(([name, meaning]) => `${name}: ${meaning}`).join('; ') + '.'));
   partsSection();
@@ -245,7 +250,7 @@ function partsSection() {
       quantity(error.over_two_levels_percent), quantity(error.edge_jump_rms_level), quantity(error.flicker_rms_level),
       ...(asSeen ? [error.flip_mean, error.flip_p95, error.ciede2000_mean, error.ciede2000_p99].map(quantity) : [])];
   }));
-  const headers = ['reference', 'where', '>compared', '>missing', '>extra', '>other triangle', '>wrong order', '>largest', '>RMSE', '>PSNR, dB',
+  const headers = ['reference', 'where', '>compared', '>missing', '>extra', '>other ' + thing(), '>wrong order', '>largest', '>RMSE', '>PSNR, dB',
     '>over two levels, %', '>slope at edges', '>flicker', ...(asSeen ? ['>FLIP', '>95 %', '>CIEDE2000', '>99 %'] : [])];
   const many = report.images.length > 1;
   section(many ? 'Where the pictures differ: the worst of all frames, and the mean' : 'Where the pictures differ',

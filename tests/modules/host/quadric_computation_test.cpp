@@ -186,11 +186,14 @@ TEST(QuadricComputation, RefusesByObjectAndFrame) {
     QuadricComputation(world.resident, format, {{0, 0}, {1, 1}}).set_up(work);
     FAIL() << "three planes on two caps";
   } catch (const InputError& error) {
-    ASSERT_EQ(error.diagnostics().size(), 1U);
+    ASSERT_EQ(error.diagnostics().size(), 2U);
     EXPECT_EQ(error.diagnostics()[0].key, "quadric_processor.caps");
     EXPECT_THAT(error.diagnostics()[0].message,
-                testing::AllOf(HasSubstr("is 2"), HasSubstr("3 planes"), HasSubstr("object 2 of the scene"),
+                testing::AllOf(HasSubstr("is 2"), HasSubstr("3 planes"), HasSubstr("object[1] of the scene"),
                                HasSubstr("frame 7"), HasSubstr("quadric_processor.caps = 3")));
+    EXPECT_EQ(error.diagnostics()[1].key, "object[1]");
+    EXPECT_THAT(error.diagnostics()[1].message,
+                testing::AllOf(HasSubstr("quadric_processor.caps is too small for"), HasSubstr("frame 7")));
   }
   format.parameters.on_refusal = quadric_processor::OnRefusal::drop;
   QuadricComputation computation(world.resident, format, {{0, 0}, {1, 1}});

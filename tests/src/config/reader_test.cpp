@@ -169,6 +169,9 @@ TEST(Reader, NamesTheNearestKnownKey) {
   // The right key in the wrong table.
   EXPECT_THAT(mistakes("[host]\ncolumns = 5\n"),
               ElementsAre("m.toml:2: host.columns: unknown key 'host.columns'; nearest known: 'video.columns'"));
+  // A key of a list's elements.
+  EXPECT_THAT(mistakes("radius = 5\n"),
+              ElementsAre("m.toml:1: radius: unknown key 'radius'; known of a list's elements: 'thing[].radius'"));
   // A table or a list by a wrong name is one mistake, whatever is in it.
   EXPECT_THAT(mistakes("[vidoe]\ncolumns = 5\nx = 6\n[vidoe.deep]\ny = 1\n"),
               ElementsAre("m.toml:1: vidoe: unknown key 'vidoe'; nearest known: 'video'"));

@@ -158,6 +158,19 @@ TEST(TextReport, SaysNothingOfPartsThatItDoesNotKnow) {
   EXPECT_FALSE(holds(text_report({result, false}), "Where they differ"));
 }
 
+// A pixel of a solid is not a triangle's.
+TEST(TextReport, CountsPixelsOfOtherObjectsWhereThereAreSolids) {
+  run::Result result = example_result();
+  for (const std::uint64_t solids : {0U, 3U}) {
+    result.modelled.solids_made = solids;
+    const std::string text = text_report({result, false});
+    const std::string header = line_with(text, "  reference  missing");
+    EXPECT_EQ(holds(header, "other triangle") && holds(header, "same triangle"), solids == 0) << header;
+    EXPECT_EQ(holds(header, "other object") && holds(header, "same object"), solids > 0) << header;
+    EXPECT_EQ(holds(text, "extra, other object, and of these"), solids > 0);
+  }
+}
+
 TEST(TextReport, SaysThatNothingWasMeasured) {
   run::Result result = example_result();
   for (run::FrameFigures& frame : result.frames) frame.errors.clear();
