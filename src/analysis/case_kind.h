@@ -12,6 +12,7 @@
 
 #include "modules/object_processor/prenormaliser.h"
 #include "modules/object_processor/triangle_processor.h"
+#include "modules/quadric_processor/quadric_words.h"
 #include "modules/set_up/point_lighting.h"
 #include "modules/set_up/quadratic_form.h"
 #include "modules/shading/table_bank.h"
@@ -28,6 +29,7 @@ namespace rastertlm::analysis {
 // What is done on purpose to the words that go into a core, so that a test sees a bound break. Nothing is, by default.
 struct Tampering {
   std::function<void(object_processor::TriangleWords&)> object_words;
+  std::function<void(quadric_processor::QuadricWords&)> quadric_words;
   std::function<void(span_unit::TriangleLoad&)> span_load;
   std::function<void(object_processor::LinkNormal&)> link_normal;  // after the pre-normalisation unit
   std::function<void(shading::TableBank&)> shading_tables;         // once they are loaded

@@ -25,6 +25,7 @@ const std::vector<NamedKind>& case_kinds() {
       {"shading", shading_case},
       {"opposing_normals", opposing_normals_case},
       {"lighting", lighting_case},
+      {"solids", solids_case},
   };
   return kinds;
 }

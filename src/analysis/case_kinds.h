@@ -21,5 +21,6 @@ std::unique_ptr<CaseKind> linear_form_case();          // stability_linear_form.
 std::unique_ptr<CaseKind> shading_case();              // stability_shading.cpp: normals and lights at their limits
 std::unique_ptr<CaseKind> opposing_normals_case();     // stability_opposing.cpp: normals that vanish on the way
 std::unique_ptr<CaseKind> lighting_case();             // stability_lighting.cpp: light at points, of any exponent
+std::unique_ptr<CaseKind> solids_case();               // stability_solids.cpp: outline, depth, normal of solids
 
 }  // namespace rastertlm::analysis

@@ -1,10 +1,5 @@
 // Is what a quadric processor's words show the solid? Every pixel's words are decoded as the machine does it; what they
-// show lies between the solid grown and the solid shrunk by the bounds of rounding.
-//
-// Bounds. The discriminant's word is off by dQ <= (k^2 + 2 k + 2) / 4 of its last place, k pixels from the anchor
-// (anchored_words.h), hence coverage where |d| > dQ is certain, and the root is off by sqrt(d + dQ) - sqrt(d), which is
-// sqrt(dQ) at the outline and dQ / (2 s) away from it; then by a place of the root's words. l and caps are off by
-// (k + 1) / 2 depth words.
+// show lies between the solid grown and the solid shrunk by the bounds of rounding (modules/set_up/solid_bounds.h).
 #pragma once
 
 #include <fmt/format.h>
@@ -18,6 +13,7 @@
 
 #include "modules/quadric_processor/quadric_pixel.h"
 #include "modules/set_up/quadric_set_up.h"
+#include "modules/set_up/solid_bounds.h"
 #include "tests/modules/set_up/solids.h"
 
 namespace rastertlm::set_up {
@@ -41,93 +37,14 @@ inline PlacedSolid ball(const glm::dvec3& at, const glm::dvec3& radii) {
   return placed_solid(kSolidShapes[0], glm::scale(glm::translate(glm::dmat4(1.0), at), radii));
 }
 
-// The solid's forms in depth words, and how far rounding may move them.
-class ExactSolid {
- public:
-  ExactSolid(const PlacedSolid& solid, const View& view, const QuadricFormat& format, const QuadricSetUp& result)
-      : form_(geometry::screen_quadric<double>(solid.quadric, view.screen_to_eye)),
-        format_(format),
-        result_(result),
-        near_(static_cast<double>(near_depth(format.words))),
-        range_(static_cast<double>(far_depth(format.words) - near_depth(format.words))) {
-    for (const glm::dvec4& plane : solid.planes)
-      planes_.push_back(geometry::screen_plane<double>(plane, view.screen_to_eye));
-  }
-
-  double pixels(double x, double y) const {
-    return std::abs(x - static_cast<double>(result_.anchor.x)) + std::abs(y - static_cast<double>(result_.anchor.y));
-  }
-  // Square depth words a unit of the discriminant's last place.
-  double last_place() const {
-    return std::ldexp(
-        1.0, 2 * (format_.depth_fraction_bits() - result_.scale) - static_cast<int>(format_.parameters.fraction_bits));
-  }
-  double middle(double x, double y) const { return near_ + range_ * form_.middle.at(x, y); }
-  double discriminant(double x, double y) const { return range_ * range_ * form_.discriminant.at(x, y); }
-  double discriminant_error(double x, double y) const {
-    const double l = range_ * form_.middle.at(x, y);
-    return second_order_error(pixels(x, y)) * last_place() +
-           0x1p-46 * (l * l + range_ * range_ + std::abs(discriminant(x, y)));
-  }
-  double plane_error(double x, double y) const { return linear_error(pixels(x, y)) + 0x1p-20; }
-  // Of a root that is read, beside its discriminant's: a place, or half of one, and what a shift drops.
-  double root_error() const {
-    const double place = std::ldexp(1.0, result_.words.root_shift);
-    return place + (result_.words.root_shift < 0 ? 1.0 : 0.0);
-  }
-  // s within [first, second].
-  std::pair<double, double> root(double x, double y) const {
-    const double d = discriminant(x, y), off = discriminant_error(x, y);
-    return {std::max(0.0, std::sqrt(std::max(0.0, d - off)) - root_error()),
-            std::sqrt(std::max(0.0, d + off)) + root_error()};
-  }
-
-  // The first depth inside, of the solid itself (sign 0), or grown (1) or shrunk (-1) by all bounds.
-  std::optional<double> first(double x, double y, double sign) const {
-    using Keeps = geometry::ScreenPlane<double>::Keeps;
-    const double off = plane_error(x, y);
-    double from = near_, to = near_ + range_;
-    for (const auto& plane : planes_) {
-      const double at = plane.depth.at(x, y);
-      const double slope = std::hypot(plane.depth.x, plane.depth.y);
-      if (plane.keeps == Keeps::side) {
-        if (at > sign * slope / 64) return std::nullopt;
-        continue;
-      }
-      // What is steeper is one along the rays, 1/64 pixel from where it is at most.
-      const double move = std::max(off, slope < 64 ? 0.0 : slope * range_ / 64);
-      if (plane.keeps == Keeps::beyond) from = std::max(from, near_ + range_ * at - sign * move);
-      if (plane.keeps == Keeps::before) to = std::min(to, near_ + range_ * at + sign * move);
-    }
-    const double d = discriminant(x, y) + (form_.a > 0 ? sign : -sign) * discriminant_error(x, y);
-    const auto [least, most] = root(x, y);
-    const double l = middle(x, y);
-    if (form_.a > 0) {
-      const double s = sign == 0 ? root_of(x, y) : sign > 0 ? most : least;
-      from = std::max(from, l - s - sign * off);
-      to = std::min(to, l + s + sign * off);
-      return d < 0 || from > to ? std::nullopt : std::optional(from);
-    }
-    const double s = sign == 0 ? root_of(x, y) : sign > 0 ? least : most;
-    if (from <= (d < 0 ? to : std::min(to, l - s + sign * off))) return from;
-    from = std::max(from, l + s - sign * off);
-    return d < 0 || from > to ? std::nullopt : std::optional(from);
-  }
-
-  glm::dvec3 normal(Surface surface, double x, double y) const {
-    using geometry::QuadricHit;
-    return glm::normalize(quadric_normal(
-        form_, surface == Surface::far_root ? QuadricHit::Surface::far_root : QuadricHit::Surface::near_root, x, y));
-  }
-  double root_of(double x, double y) const { return std::sqrt(std::max(0.0, discriminant(x, y))); }
-
- private:
-  geometry::ScreenQuadric<double> form_;
-  std::vector<geometry::ScreenPlane<double>> planes_;
-  const QuadricFormat& format_;
-  const QuadricSetUp& result_;
-  double near_, range_;
-};
+inline SolidBounds bounds_of(const PlacedSolid& solid, const View& view, const QuadricFormat& format,
+                             const QuadricSetUp& result) {
+  std::vector<geometry::ScreenPlane<double>> planes;
+  planes.reserve(solid.planes.size());
+  for (const glm::dvec4& plane : solid.planes)
+    planes.push_back(geometry::screen_plane<double>(plane, view.screen_to_eye));
+  return {geometry::screen_quadric<double>(solid.quadric, view.screen_to_eye), std::move(planes), format, result};
+}
 
 struct Seen {
   int covered = 0, uncertain = 0, normals = 0;
@@ -147,23 +64,11 @@ inline glm::dvec3 vector_of(const std::array<std::uint32_t, 3>& words, int bits)
   return vector;
 }
 
-// The angle between the normal shown and the exact one, and its bound, in the words' unit: E and the product to words,
-// k to half a place of it for each of the root's, and k times what the root is off.
-inline void check_normal(const ExactSolid& exact, const QuadricFormat& format, const QuadricWords& words,
-                         const QuadricPixel& pixel, double x, double y, Seen& seen) {
+// The angle between the normal shown and the exact one, beside its bound.
+inline void check_normal(const SolidBounds& exact, const QuadricFormat& format, const QuadricPixel& pixel, double x,
+                         double y, Seen& seen) {
   const glm::dvec3 shown = vector_of(pixel.normal, format.words.word_bits);
-  const auto fraction =
-      static_cast<int>(format.parameters.multiplier_bits) - static_cast<int>(quadric_processor::kMultiplierInteger);
-  glm::dvec3 k;
-  for (int i = 0; i < 3; ++i)
-    k[i] = std::abs(std::ldexp(words.normal_of_root[static_cast<std::size_t>(i)], -fraction)) +
-           std::ldexp(1.0, -fraction - 1);
-  const auto [least, most] = exact.root(x, y);
-  const double s = exact.root_of(x, y);
-  const double places = std::ldexp(std::max(most - s, s - least), -words.root_shift);
-  const double rounding =
-      linear_error(exact.pixels(x, y)) + std::ldexp(std::ldexp(most, -words.root_shift), -fraction - 1) + 1;
-  const double off = glm::length(k) * places + std::sqrt(3.0) * rounding;
+  const double off = exact.normal_error(x, y);
   const double length = glm::length(shown);
   const double apart =
       std::acos(std::clamp(glm::dot(shown / std::max(length, 1.0), exact.normal(pixel.surface, x, y)), -1.0, 1.0));
@@ -175,7 +80,7 @@ inline void check_normal(const ExactSolid& exact, const QuadricFormat& format, c
 
 inline Seen compare(const PlacedSolid& solid, const View& view, const QuadricFormat& format, const QuadricSetUp& result,
                     std::size_t step) {
-  const ExactSolid exact(solid, view, format, result);
+  const SolidBounds exact = bounds_of(solid, view, format, result);
   const QuadricPixelLogic logic(format.parameters, static_cast<unsigned>(format.words.word_bits),
                                 {near_depth(format.words), far_depth(format.words)});
   Seen seen;
@@ -202,7 +107,7 @@ inline Seen compare(const PlacedSolid& solid, const View& view, const QuadricFor
       if (!real) continue;  // normals may leave their words where rounding shows more than there is
       seen.depth = std::max(seen.depth, std::abs(static_cast<double>(pixel.depth) - *real));
       if (pixel.surface == Surface::near_root || pixel.surface == Surface::far_root)
-        check_normal(exact, format, result.words, pixel, x, y, seen);
+        check_normal(exact, format, pixel, x, y, seen);
     }
   return seen;
 }

@@ -1,7 +1,7 @@
 // What a pixel of a frame with solids may show, by exact arithmetic and the bounds of rounding.
 //
 // Each solid's surface lies between the solid grown and the solid shrunk by the bounds of its words
-// (tests/modules/set_up/solid_comparison.h: dQ <= (k^2 + 2 k + 2) / 4 of the discriminant's last place, k pixels from
+// (modules/set_up/solid_bounds.h: dQ <= (k^2 + 2 k + 2) / 4 of the discriminant's last place, k pixels from
 // its anchor, hence a root that is off by sqrt(dQ) at the outline and dQ / (2 s) away from it, a place of the root, and
 // (k + 1) / 2 depth words of l and of caps). What is within the grown one and outside of the shrunk one is nearer to an
 // outline than dQ / |grad d|, and may be seen or not. Triangles cover what the exact renderer says, to a bound of
@@ -39,10 +39,7 @@ class JudgedSolid {
     const set_up::EyeSolid eye = set_up::solid_in_eye_space<double>(solid, object_to_eye);
     result_ = set_up::set_up_quadric<double>(eye.quadric, eye.planes, solid.material, view.screen_to_eye, format);
     if (result_.outcome == set_up::QuadricOutcome::drawn)
-      exact_.emplace(set_up::PlacedSolid{eye.quadric, eye.planes}, view, format_, result_);
-    form_ = geometry::screen_quadric<double>(eye.quadric, view.screen_to_eye);
-    for (const glm::dvec4& plane : eye.planes)
-      planes_.push_back(geometry::screen_plane<double>(plane, view.screen_to_eye));
+      exact_.emplace(set_up::bounds_of({eye.quadric, eye.planes}, view, format_, result_));
   }
   JudgedSolid(const JudgedSolid&) = delete;
   JudgedSolid& operator=(const JudgedSolid&) = delete;
@@ -76,44 +73,21 @@ class JudgedSolid {
     const unsigned shift = longest > link_bits - 1 ? longest - (link_bits - 1) : 0;
     double off = std::sqrt(3.0) / 2 * std::ldexp(1.0, static_cast<int>(shift));
     if (pixel.surface == Surface::cap) off += std::sqrt(3.0) / 2;
-    if (pixel.surface == Surface::near_root || pixel.surface == Surface::far_root) off += root_normal_error(x, y);
+    if (pixel.surface == Surface::near_root || pixel.surface == Surface::far_root) off += exact_->normal_error(x, y);
     if (!(off < length)) return std::nullopt;
     return std::asin(off / length);
   }
 
   // The exact depth, in words, of the surface that `pixel` shows.
-  double depth_of(const quadric_processor::QuadricPixel& pixel, double x, double y, double near, double range) const {
-    using quadric_processor::Surface;
-    const double s = std::sqrt(std::max(0.0, form_.discriminant.at(x, y)));
-    double depth = 0;
-    if (pixel.surface == Surface::near_root) depth = form_.middle.at(x, y) - s;
-    if (pixel.surface == Surface::far_root) depth = form_.middle.at(x, y) + s;
-    if (pixel.surface == Surface::cap) depth = planes_.at(pixel.cap).depth.at(x, y);
-    return near + range * depth;
+  double depth_of(const quadric_processor::QuadricPixel& pixel, double x, double y) const {
+    return exact_->surface_depth(pixel, x, y).depth;
   }
 
  private:
-  double root_normal_error(double x, double y) const {
-    const auto fraction =
-        static_cast<int>(format_.parameters.multiplier_bits) - static_cast<int>(quadric_processor::kMultiplierInteger);
-    glm::dvec3 k;
-    for (int i = 0; i < 3; ++i)
-      k[i] = std::abs(std::ldexp(result_.words.normal_of_root[static_cast<std::size_t>(i)], -fraction)) +
-             std::ldexp(1.0, -fraction - 1);
-    const auto [least, most] = exact_->root(x, y);
-    const double s = exact_->root_of(x, y);
-    const double places = std::ldexp(std::max(most - s, s - least), -result_.words.root_shift);
-    const double rounding = set_up::linear_error(exact_->pixels(x, y)) +
-                            std::ldexp(std::ldexp(most, -result_.words.root_shift), -fraction - 1) + 1;
-    return glm::length(k) * places + std::sqrt(3.0) * rounding;
-  }
-
   const reference::PlacedSolid& placed_;
   const set_up::QuadricFormat& format_;
   set_up::QuadricSetUp result_;
-  std::optional<set_up::ExactSolid> exact_;
-  geometry::ScreenQuadric<double> form_;
-  std::vector<geometry::ScreenPlane<double>> planes_;
+  std::optional<set_up::SolidBounds> exact_;
 };
 
 // A pose of a scene whose triangles come before its solids, on a machine's screen.

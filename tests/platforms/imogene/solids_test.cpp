@@ -169,8 +169,7 @@ class Comparison {
     if (!hit) return f_.note("its ray misses the solid", x, y);
     if (!same_surface(pixel, *hit)) {
       ++f_.other_face;
-      const double apart =
-          std::abs(solid.depth_of(pixel, column, line, judged_.near(), judged_.range()) - judged_.word(hit->depth));
+      const double apart = std::abs(solid.depth_of(pixel, column, line) - judged_.word(hit->depth));
       if (apart > range.high - range.low) f_.note("another surface of the solid is shown", x, y);
       return;
     }

@@ -14,6 +14,7 @@ namespace rastertlm::analysis {
 namespace {
 
 using object_processor::TriangleWords;
+using quadric_processor::QuadricWords;
 using span_unit::TriangleLoad;
 
 std::string source(const std::string& name) { return std::string(RASTERTLM_SOURCE_DIR) + "/configs/" + name; }
@@ -46,6 +47,12 @@ Tampering object_words(std::function<void(TriangleWords&)> change) {
 Tampering span_load(std::function<void(TriangleLoad&)> change) {
   Tampering tampering;
   tampering.span_load = std::move(change);
+  return tampering;
+}
+
+Tampering quadric_words(std::function<void(QuadricWords&)> change) {
+  Tampering tampering;
+  tampering.quadric_words = std::move(change);
   return tampering;
 }
 
@@ -146,6 +153,50 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"imogene", "view_orthographic", "depth of a pixel",
                           object_words([](TriangleWords& words) { words.depth.c += 1U << 20; })},
                     Wrong{"imogene", "million_frames", "rotation", summed_angle()}));
+
+// By 2^-8 of the discriminant's range, or its curvature by a place of the word.
+Tampering smaller_solid() {
+  return quadric_words([](QuadricWords& words) { words.discriminant.v0 -= std::uint64_t{1} << 36; });
+}
+Tampering larger_solid() {
+  return quadric_words([](QuadricWords& words) { words.discriminant.v0 += std::uint64_t{1} << 36; });
+}
+Tampering bent_solid() {
+  return quadric_words([](QuadricWords& words) { words.discriminant.two_a += std::uint64_t{1} << 24; });
+}
+Tampering nearer_solid() {
+  return quadric_words([](QuadricWords& words) { words.middle.c -= 1U << 13; });
+}
+Tampering turned_solid() {
+  return quadric_words([](QuadricWords& words) {
+    for (auto& normal : words.normal) normal.c += 1U << 16;
+  });
+}
+// What a root of one bit less, or one that is read as half of it, would show.
+Tampering halved_root() {
+  return quadric_words([](QuadricWords& words) { --words.root_shift; });
+}
+Tampering moved_cut() {
+  return quadric_words([](QuadricWords& words) {
+    for (auto& cap : words.caps) cap.plane.c += 1U << 20;
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Solids, BrokenSteps,
+    testing::Values(Wrong{"imogene_quadrics", "solids", "not covered though", smaller_solid()},
+                    Wrong{"imogene_quadrics", "solids", "beside the solid", larger_solid()},
+                    Wrong{"imogene_quadrics", "solids", "deeper or nearer", nearer_solid()},
+                    Wrong{"imogene_quadrics", "solids", "surface that is shown", nearer_solid()},
+                    Wrong{"imogene_quadrics", "solids", "normal of a root", turned_solid()},
+                    Wrong{"imogene", "solids", "surface that is shown", halved_root()},
+                    Wrong{"imogene_quadrics", "solids_spheres", "not covered though", smaller_solid()},
+                    Wrong{"imogene_quadrics", "solids_thin", "beside the solid", larger_solid()},
+                    Wrong{"imogene_quadrics", "solids_near", "surface that is shown", halved_root()},
+                    Wrong{"imogene_quadrics", "solids_along_axis", "deeper or nearer", moved_cut()},
+                    Wrong{"imogene_quadrics", "solids_caps_along_rays", "deeper or nearer", moved_cut()},
+                    Wrong{"imogene_quadrics", "solids_saddles", "surface that is shown", halved_root()},
+                    Wrong{"imogene_quadrics", "solids_near_wrap", "beside the solid", bent_solid()}));
 
 INSTANTIATE_TEST_SUITE_P(
     SpanMachines, BrokenSteps,
