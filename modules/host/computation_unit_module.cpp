@@ -86,9 +86,9 @@ Cycles ComputationUnitModule::cycles_since_swap() const {
 
 void ComputationUnitModule::work_on_frame(const FrameWork& work) {
   geometry::OperationCounts before = computation_.operations();
-  Survey survey = computation_.survey(work);
+  survey_ = computation_.survey(work);
   spend_computing(before);
-  report(std::move(survey));
+  report();
 
   meter_.enter(Activity::starved, picoseconds_now());
   Message plan = take(Message::Kind::plan);
@@ -222,41 +222,36 @@ Message ComputationUnitModule::take(Message::Kind kind) {
   return std::move(letter.message);
 }
 
-void ComputationUnitModule::forward(Message message) {
-  MessagePayload payload;
-  payload.message = std::move(message);
-  const Message& sent = payload.message;
+void ComputationUnitModule::forward(const Message& message) {
+  payload_.message = message;
+  const Message& sent = payload_.message;
   const bool with_meshes = sent.kind == Message::Kind::frame && sent.work->initial && !links_.resident_below.empty();
   for (std::size_t i = 0; i < down.size(); ++i) {
-    if (with_meshes) payload.message.bytes = sent.work->message_bytes + links_.resident_below[i];
-    send_on(down[i], payload, below_[i]);
+    if (with_meshes) payload_.message.bytes = sent.work->message_bytes + links_.resident_below[i];
+    send_on(down[i], below_[i]);
   }
 }
 
-void ComputationUnitModule::send_on(MessageInitiator<ComputationUnitModule>& socket, MessagePayload& payload,
-                                    LinkPort& port) {
-  send(socket, payload, cost_, port, meter_);
+void ComputationUnitModule::send_on(MessageInitiator<ComputationUnitModule>& socket, LinkPort& port) {
+  send(socket, payload_, cost_, port, meter_);
   update_.starting += cost_.link_set_up();
 }
 
 // One message up: the own survey with those of the units below, when they have come.
-void ComputationUnitModule::report(Survey own) {
+void ComputationUnitModule::report() {
   meter_.enter(Activity::starved, picoseconds_now());
   while (surveys_ < up.size()) wait(sent_up_);
   wait_until(last_survey_ps_);
-  MessagePayload payload;
-  Message& message = payload.message;
-  std::swap(message.free_slots, subtree_.free_slots);
-  std::swap(message.homeless, subtree_.homeless);
+  Message& message = payload_.message;
+  message = std::exchange(subtree_, {});
   message.kind = Message::Kind::survey;
-  message.guarded = subtree_.guarded || own.guarded;
-  message.free_slots.push_back({unit_, own.free_slots});
-  message.homeless.insert(message.homeless.end(), std::make_move_iterator(own.homeless.begin()),
-                          std::make_move_iterator(own.homeless.end()));
+  message.guarded = message.guarded || survey_.guarded;
+  message.free_slots.push_back({unit_, survey_.free_slots});
+  message.homeless.insert(message.homeless.end(), std::make_move_iterator(survey_.homeless.begin()),
+                          std::make_move_iterator(survey_.homeless.end()));
   message.bytes = survey_bytes(message);
   surveys_ = 0;
-  subtree_.guarded = false;
-  send_on(to_above, payload, above_);
+  send_on(to_above, above_);
 }
 
 void ComputationUnitModule::receive_from_above(MessagePayload& payload, sc_core::sc_time& delay) {

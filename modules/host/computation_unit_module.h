@@ -71,8 +71,8 @@ class ComputationUnitModule : public sc_core::sc_module {
   void run();
   Cycles cycles_since_swap() const;
   Message take(Message::Kind kind);
-  void forward(Message message);
-  void report(Survey own);
+  void forward(const Message& message);
+  void report();
   void work_on_frame(const FrameWork& work);
   void spend_computing(const geometry::OperationCounts& before);
   // What is written of a slot, and where it stands.
@@ -89,7 +89,7 @@ class ComputationUnitModule : public sc_core::sc_module {
   void write_words(std::uint64_t count);
   void write(std::size_t number, std::size_t first_word, std::size_t count);
   void put_on_bus(BusSocket& socket, std::uint64_t address, std::uint32_t* words, std::size_t count);
-  void send_on(MessageInitiator<ComputationUnitModule>& socket, MessagePayload& payload, LinkPort& port);
+  void send_on(MessageInitiator<ComputationUnitModule>& socket, LinkPort& port);  // what stands in payload_
   void receive_from_above(MessagePayload& payload, sc_core::sc_time& delay);
   void receive_from_below(MessagePayload& payload, sc_core::sc_time& delay);
 
@@ -111,6 +111,8 @@ class ComputationUnitModule : public sc_core::sc_module {
   std::deque<Letter> inbox_;  // from above, in order
   sc_core::sc_event sent_down_;
   Message subtree_;  // the survey of the units below, in the making
+  Survey survey_;    // the own
+  MessagePayload payload_;
   std::size_t surveys_ = 0;
   std::uint64_t last_survey_ps_ = 0;
   sc_core::sc_event sent_up_;

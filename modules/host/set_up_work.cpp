@@ -87,6 +87,8 @@ SetUpWork::SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& 
       object_to_clip_(scene.objects.size()),
       kernels_(set_up::triangle_kernels(vector_variant())) {
   count_paths();
+  if (parameters.classifies())
+    for (const auto& object : scene.objects) classifiers_.emplace_back(*object.mesh, surfaces);
   if (parameters.shades_some_pixels()) {
     depth_costs_ = set_up::depth_load_costs();
     const bool chosen = parameters.method == ShadingMethod::gouraud_phong;
@@ -94,8 +96,6 @@ SetUpWork::SetUpWork(const ResidentScene& scene, const set_up::SetUpParameters& 
         pixel_unit::ShaderSettings{chosen ? ShadingMethod::phong : parameters.method, parameters.attributes, true},
         std::move(surfaces), rules);
   }
-  if (parameters.classifies())
-    for (const auto& object : scene.objects) classifiers_.emplace_back(*object.mesh);
   if (parameters.vertices == set_up::Vertices::shared) vertices_ = std::make_unique<SharedVertices>(scene);
 }
 

@@ -95,8 +95,11 @@ std::vector<HighlightSource> highlight_sources(const EyeSources& sources, const 
   return result;
 }
 
-HighlightClassifier::HighlightClassifier(const geometry::Mesh& mesh)
-    : mesh_(mesh), neighbourhood_(mesh), sides_(mesh.positions.size()) {}
+HighlightClassifier::HighlightClassifier(const geometry::Mesh& mesh, std::span<const geometry::Reflectance> surfaces)
+    : mesh_(mesh), neighbourhood_(mesh), sides_(mesh.positions.size()) {
+  shines_.reserve(mesh.triangles.size());
+  for (const std::uint16_t material : mesh.material) shines_.push_back(surfaces[material].shines() ? 1 : 0);
+}
 
 const std::vector<Highlighted>& HighlightClassifier::classify(const glm::dmat4& object_to_eye,
                                                               const EyeSources& sources, std::int64_t rings) {
@@ -145,7 +148,7 @@ void HighlightClassifier::mark(std::span<const HighlightSource> sources, std::sp
                    positions.size();
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       const auto& corner = mesh_.triangles[t];
-      if (may_be_highlighted(sides_[corner[0]], sides_[corner[1]], sides_[corner[2]]))
+      if (shines_[t] != 0 && may_be_highlighted(sides_[corner[0]], sides_[corner[1]], sides_[corner[2]]))
         triangles_[t] = Highlighted::potentially;
     }
     OperationCounts together;

@@ -44,8 +44,8 @@ struct EyeSources {
 
 class HighlightClassifier {
  public:
-  // The mesh outlives it.
-  explicit HighlightClassifier(const geometry::Mesh& mesh);
+  // The mesh outlives it. `surfaces`: the scene's materials; what reflects no specular light has no highlight.
+  HighlightClassifier(const geometry::Mesh& mesh, std::span<const geometry::Reflectance> surfaces);
 
   // One mark a triangle. Where the matrix scales the object differently along its axes, angles are those of eye space
   // only: then vertices are taken there.
@@ -62,6 +62,7 @@ class HighlightClassifier {
 
   const geometry::Mesh& mesh_;
   Neighbourhood neighbourhood_;
+  std::vector<std::uint8_t> shines_;  // of triangles
   std::vector<Highlighted> triangles_;
   std::vector<std::uint8_t> sides_;  // of vertices, one light
   std::vector<glm::dvec3> eye_positions_, eye_normals_;

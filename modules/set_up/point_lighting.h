@@ -43,6 +43,7 @@ class PointLighting {
   bool needs_positions() const { return needs_positions_; }
   const std::vector<geometry::LightSource>& lights() const { return lights_; }
   bool viewer_at_eye() const { return viewer_at_eye_; }
+  bool shines(std::size_t material) const { return surfaces_[material].shines(); }
 
   LitPoint middle(const LitPoint& a, const LitPoint& b);
   // `weights` of the corners, on the screen; they add up to 1.

@@ -101,6 +101,10 @@ void Subdivision::regular(const LitTriangle& triangle, std::uint32_t material, s
 }
 
 void Subdivision::highlight(const LitTriangle& triangle, std::uint32_t material, std::vector<LitTriangle>& out) {
+  if (!lighting_.shines(material)) {
+    out.push_back(triangle);
+    return;
+  }
   sources_ = highlight_sources({lighting_.lights(), lighting_.viewer_at_eye()}, glm::dmat4(1.0));
   const std::size_t before = out.size();
   const int spare = parameters_.corner_bits() - static_cast<int>(parameters_.snap_bits);
@@ -217,7 +221,7 @@ void Subdivision::along_edges(std::size_t light, Part part, std::uint32_t materi
     const auto on_second = second_done ? std::nullopt : inserted(bright, b, material);
     first_done = first_done || !on_first;
     second_done = second_done || !on_second;
-    part.spare_bits -= 1;
+    if (on_first || on_second) part.spare_bits -= 1;
     if (on_first) {
       for_lights_from(light + 1, {{*on_first, a, b}, part.spare_bits}, material, out);
       a = *on_first;

@@ -313,12 +313,13 @@ void TriangleColourer::split(const Knots& knots, int level, std::vector<ColourTr
 }
 
 bool TriangleColourer::is_to_split(const Knots& knots, const ColourTriangle& triangle) {
-  if (parameters_.test_points == TestPoints::h1h2) return may_hold_highlight(knots);
+  if (parameters_.test_points == TestPoints::h1h2) return may_hold_highlight(knots, triangle.material);
   return is_off(knots, triangle, triangle.material);
 }
 
 // No light is evaluated for it. Corners, lights and viewer are in eye space.
-bool TriangleColourer::may_hold_highlight(const Knots& knots) {
+bool TriangleColourer::may_hold_highlight(const Knots& knots, std::uint32_t material) {
+  if (!lighting_.shines(material)) return false;
   const geometry::OperationCounts before = geometry::operation_counts;
   const bool at_eye = lighting_.viewer_at_eye();
   bool may_be = false;

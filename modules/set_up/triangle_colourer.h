@@ -91,7 +91,7 @@ class TriangleColourer {
   void split_or_draw(const Knots& knots, int level, std::vector<ColourTriangle>& out);
   void split(const Knots& knots, int level, std::vector<ColourTriangle>& out);
   bool is_to_split(const Knots& knots, const ColourTriangle& triangle);
-  bool may_hold_highlight(const Knots& knots);
+  bool may_hold_highlight(const Knots& knots, std::uint32_t material);
   bool is_off(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material);
   bool is_off_at(const Knots& knots, const ColourTriangle& triangle, std::uint32_t material,
                  const std::array<double, 3>& weights);

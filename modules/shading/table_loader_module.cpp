@@ -144,14 +144,14 @@ void TableLoaderModule::start() {
 
 // Every engine is busy from the start of the load on for as long as its slowest loader.
 void TableLoaderModule::occupy_engines() {
-  std::vector<std::pair<std::uint64_t, std::size_t>> ends;
+  ends_.clear();
   for (std::size_t engine = 0; engine < kEngines; ++engine) {
     if (load_.seconds(engine) == 0.0) continue;
     engines_[engine].meter.enter(Activity::busy, started_ps_);
-    ends.emplace_back(started_ps_ + to_picoseconds(load_.seconds(engine)), engine);
+    ends_.emplace_back(started_ps_ + to_picoseconds(load_.seconds(engine)), engine);
   }
-  std::sort(ends.begin(), ends.end());
-  for (const auto& [end, engine] : ends) {
+  std::sort(ends_.begin(), ends_.end());
+  for (const auto& [end, engine] : ends_) {
     stream::wait_until(end);
     engines_[engine].meter.enter(Activity::idle, end);
   }

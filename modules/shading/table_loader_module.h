@@ -6,7 +6,9 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include <array>
+#include <cstdint>
 #include <systemc>
+#include <utility>
 #include <vector>
 
 #include "modules/shading/light_payload.h"
@@ -90,6 +92,7 @@ class TableLoaderModule : public sc_core::sc_module {
   std::uint64_t retrace_ps_;
   const sc_core::sc_event& swapped_;
   std::array<Engine, kEngines> engines_;
+  std::vector<std::pair<std::uint64_t, std::size_t>> ends_;  // of a load: in picoseconds, and whose
   WordSink sink_;
 
   bool pending_ = false;  // lights have been received and not yet looked at

@@ -1,6 +1,7 @@
 // SystemC turns an exception that leaves a process into a report of its own, and the unit and cycle it named are lost.
 // A process body runs guarded instead: the first failure is kept, the simulation stops, and whoever started it throws
-// the failure on.
+// the failure on. The other processes stay where they wait, and their stacks are never unwound: what owns memory and
+// lives over a wait is a member of its module, not a local variable.
 #pragma once
 
 #include <cstddef>

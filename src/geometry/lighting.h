@@ -18,6 +18,8 @@ struct Reflectance {
   glm::dvec3 diffuse{0.0};   // Kd * colour
   glm::dvec3 specular{0.0};  // Ks
   int exponent = 1;          // E
+  // Whether it has highlights at all.
+  bool shines() const { return specular.x > 0.0 || specular.y > 0.0 || specular.z > 0.0; }
 };
 
 struct LightSource {

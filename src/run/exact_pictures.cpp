@@ -47,9 +47,19 @@ std::string pose_bytes(const scene::Pose& pose) {
   return bytes;
 }
 
-reference::DepthWords depth_words(const set_up::WordFormat& format) {
-  return {static_cast<double>(set_up::near_depth(format)), static_cast<double>(set_up::far_depth(format)),
-          static_cast<double>(set_up::depth_margin(format))};
+reference::DepthWords depth_words(const set_up::WordFormat& format, double bound) {
+  return {static_cast<double>(set_up::near_depth(format)), static_cast<double>(set_up::far_depth(format)), bound};
+}
+
+// Along the lattice a register's words round, and what is stored is floored; a start edge that is off takes depth along
+// its slope, up to the margin beside near and far.
+double depth_bound(const quadratic::Machine& machine) {
+  if (machine.span_unit.start_edge != span_unit::StartEdge::lattice)
+    return static_cast<double>(set_up::depth_margin(machine.depth_format()));
+  const std::uint64_t steps =
+      span_unit::longest_iteration(machine.span_unit, static_cast<std::uint64_t>(machine.video.columns),
+                                   static_cast<std::uint64_t>(machine.video.lines));
+  return 1.0 + span_unit::linear_fraction_bound(machine.span_unit.depth_fraction_bits, steps);
 }
 
 }  // namespace
@@ -82,13 +92,15 @@ std::vector<reference::RenderOptions> exact_options(const quadratic::Machine& ma
 }
 
 std::optional<reference::DepthWords> depth_words(const imogene::Machine& machine) {
-  return depth_words({static_cast<int>(machine.object_processor.word_bits),
-                      static_cast<std::size_t>(machine.video.columns), static_cast<std::size_t>(machine.video.lines)});
+  const set_up::WordFormat format{static_cast<int>(machine.object_processor.word_bits),
+                                  static_cast<std::size_t>(machine.video.columns),
+                                  static_cast<std::size_t>(machine.video.lines)};
+  return depth_words(format, static_cast<double>(set_up::depth_margin(format)));
 }
 
 std::optional<reference::DepthWords> depth_words(const quadratic::Machine& machine) {
   if (!machine.frame_store.depth_test) return std::nullopt;
-  return depth_words(machine.depth_format());
+  return depth_words(machine.depth_format(), depth_bound(machine));
 }
 
 reference::MeterOptions meter_options(const std::string& reference, const std::optional<reference::DepthWords>& depth,

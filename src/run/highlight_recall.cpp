@@ -16,14 +16,18 @@ void add_highlight_recall(const quadratic::Machine& machine, const scene::Scene&
   std::vector<geometry::LightSource> lights;
   for (const geometry::Light& light : pose.lights)
     lights.push_back({light.kind == geometry::LightKind::point, light.vector, light.intensity, light.intensity});
+  std::vector<geometry::Reflectance> surfaces;
+  for (const scene::Material& material : scene.materials)
+    surfaces.push_back({{}, {}, glm::dvec3(material.specular), material.exponent});
   std::uint64_t centres = 0, found = 0, potentially = 0, holding = 0;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const scene::Mesh& mesh = scene.objects[o].mesh;
-    set_up::HighlightClassifier classifier(mesh);
+    set_up::HighlightClassifier classifier(mesh, surfaces);
     const auto& marks = classifier.classify(pose.object_to_eye[o], {lights, viewer_at_eye}, 0);
     std::vector<bool> holds(mesh.triangles.size());
     for (const reference::HighlightCentre& centre :
          reference::highlight_centres(mesh, pose.object_to_eye[o], pose.normal_to_eye[o], pose.lights, viewer_at_eye)) {
+      if (!surfaces[mesh.material[centre.triangle]].shines()) continue;
       ++centres;
       found += marks[centre.triangle] == set_up::Highlighted::potentially ? 1 : 0;
       holds[centre.triangle] = true;

@@ -15,6 +15,7 @@
 
 #include "src/explore/runner.h"
 #include "src/run/simulate.h"
+#include "tests/benchmark/measuring.h"
 #include "tests/support/forked.h"
 
 namespace rastertlm::benchmark {
@@ -33,11 +34,6 @@ struct Times {
   double passed = 0.0;  // ms a point
   double worked = 0.0;  // ms of all processors a point
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
-}
 
 double worked(int who) {
   rusage usage{};

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <ctime>
 #include <memory>
 #include <stdexcept>
 
@@ -15,6 +14,7 @@
 #include "src/reference/level_sums.h"
 #include "src/reference/renderer.h"
 #include "tests/benchmark/benchmark_scene.h"
+#include "tests/benchmark/measuring.h"
 #include "tests/benchmark/plain_variants.h"
 
 namespace rastertlm::benchmark {
@@ -22,20 +22,6 @@ namespace {
 
 constexpr std::uint64_t kWarmFrames = 3;
 constexpr std::size_t kMostMeasuredErrors = 30;  // frames: an exact picture takes as long as a hundred of them
-
-// Nanoseconds that this thread has worked: what else the machine does in between is not counted.
-double worked() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 // The memories of the shading processor, as they were loaded.
 plain::Tables tables_of(shading::DeferredShader& shader, const scene::Pose& pose) {

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "platforms/quadratic/quadratic.h"
 #include "tests/benchmark/benchmark_scene.h"
+#include "tests/benchmark/measuring.h"
 #include "tests/benchmark/plain_quadratic.inc"
 #include "tests/benchmark/plain_variants.h"
 #include "tests/support/forked.h"
@@ -29,17 +29,6 @@ std::unique_ptr<Loop> make(std::vector<Triangle>, std::vector<Material>, const s
 
 namespace rastertlm::benchmark {
 namespace {
-
-double worked() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
-}
 
 std::unique_ptr<plain_quadratic::Loop> loop_of(const scene::Scene& scene) {
   std::vector<plain_quadratic::Triangle> triangles;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -20,6 +19,7 @@
 #include "modules/set_up/quadric_set_up.h"
 #include "src/geometry/projection.h"
 #include "src/geometry/quadric.h"
+#include "tests/benchmark/measuring.h"
 #include "tests/benchmark/plain_solids.inc"
 
 namespace plain_solids {
@@ -43,17 +43,6 @@ using quadric_processor::QuadricWords;
 constexpr std::size_t kColumns = 512;
 constexpr std::size_t kLines = 512;
 constexpr std::size_t kBoards = 8;
-
-double worked() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 set_up::QuadricFormat format_of_machine() {
   set_up::QuadricFormat format;

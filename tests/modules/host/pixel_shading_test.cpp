@@ -120,7 +120,7 @@ TEST(PixelShading, GouraudPhongShadesTheTrianglesWithAHighlight) {
   const Host gouraud(world, ShadingMethod::gouraud), chosen(world, ShadingMethod::gouraud_phong),
       phong(world, ShadingMethod::phong);
   ASSERT_EQ(chosen.drawn.size(), gouraud.drawn.size());
-  set_up::HighlightClassifier classifier(world.meshes[0]);
+  set_up::HighlightClassifier classifier(world.meshes[0], Host::surfaces());
   const geometry::Pose pose = world.pose(0);
   const std::vector<geometry::LightSource> lights{{false, pose.lights[0].vector, glm::dvec3(1.0), glm::dvec3(1.0)}};
   const auto& marks = classifier.classify(pose.object_to_eye[0], {lights, true}, 0);

@@ -154,10 +154,14 @@ std::size_t marked(const std::vector<Highlighted>& triangles, Highlighted as) {
   return static_cast<std::size_t>(std::count(triangles.begin(), triangles.end(), as));
 }
 
+const std::vector<geometry::Reflectance> kShining{{{}, {}, glm::dvec3(0.5), 20}};
+const std::vector<geometry::Reflectance> kShiningAndMatt{kShining[0], {glm::dvec3(0.1), glm::dvec3(0.7), {}, 20}};
+
 // Of a sphere seen from far, with a light from far, one place shines, where the normal is half way.
 TEST_F(HighlightTest, FindsTheOneHighlightOfASphere) {
-  const geometry::Mesh mesh = scene::uv_sphere(1.0, 23, 16);
-  HighlightClassifier classifier(mesh);
+  geometry::Mesh mesh = scene::uv_sphere(1.0, 23, 16);
+  mesh.material.assign(mesh.triangles.size(), 0);
+  HighlightClassifier classifier(mesh, kShining);
   for (int round = 0; round < 50; ++round) {
     const glm::dvec3 light = glm::normalize(direction() + glm::dvec3(0, 0, 1.5));
     const std::vector<geometry::LightSource> lights{{false, light, glm::dvec3(1.0), glm::dvec3(1.0)}};
@@ -181,9 +185,31 @@ TEST_F(HighlightTest, FindsTheOneHighlightOfASphere) {
   }
 }
 
+// A surface without specular light has no highlight, wherever the light stands; all others are found as before.
+TEST_F(HighlightTest, LeavesMattTrianglesAlone) {
+  geometry::Mesh mesh = scene::uv_sphere(1.0, 23, 16);
+  mesh.material.assign(mesh.triangles.size(), 0);
+  HighlightClassifier shining(mesh, kShining);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) mesh.material[t] = static_cast<std::uint16_t>(t % 2);
+  HighlightClassifier mixed(mesh, kShiningAndMatt);
+  std::size_t left_alone = 0;
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<geometry::LightSource> lights{
+        {false, glm::normalize(direction() + glm::dvec3(0, 0, 1.5)), glm::dvec3(1.0), glm::dvec3(1.0)}};
+    const std::vector<Highlighted> all = shining.classify(glm::dmat4(1.0), {lights, false}, 0);
+    const std::vector<Highlighted> some = mixed.classify(glm::dmat4(1.0), {lights, false}, 0);
+    for (std::size_t t = 0; t < all.size(); ++t) {
+      EXPECT_EQ(some[t], t % 2 == 0 ? all[t] : Highlighted::no) << t;
+      left_alone += all[t] != some[t] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(left_alone, 0U);
+}
+
 TEST_F(HighlightTest, IsTheSameInEyeSpaceAndCountsItsOperations) {
-  const geometry::Mesh mesh = scene::uv_sphere(1.0, 17, 12);
-  HighlightClassifier classifier(mesh);
+  geometry::Mesh mesh = scene::uv_sphere(1.0, 17, 12);
+  mesh.material.assign(mesh.triangles.size(), 0);
+  HighlightClassifier classifier(mesh, kShining);
   const std::vector<geometry::LightSource> lights{{true, {3, 2, -1}, glm::dvec3(1.0), glm::dvec3(1.0)},
                                                   {false, {0, 0.6, 0.8}, glm::dvec3(1.0), glm::dvec3(1.0)}};
   const glm::dmat4 placed = glm::translate(glm::dmat4(1.0), glm::dvec3(0.3, 0.1, -6.0)) *

@@ -196,6 +196,28 @@ TEST_F(SubdivisionTest, LeavesWhatHasNoHighlight) {
   EXPECT_EQ(parts.size(), 1U);
 }
 
+TEST_F(SubdivisionTest, LeavesWhatReflectsNoSpecularLight) {
+  const SetUpParameters p = parameters(ShadingMethod::highlight_subdivision);
+  std::vector<geometry::Reflectance> both = surfaces();
+  both.push_back(both[0]);
+  both[1].specular = glm::dvec3(0.0);
+  PointLighting lighting(p, both, {});
+  std::size_t cut = 0;
+  for (int round = 0; round < 50; ++round) {
+    lighting.set_lights(lights(), true);
+    Subdivision subdivision(p, lighting);
+    const LitTriangle whole = triangle(p, lighting);
+    std::vector<LitTriangle> shining, matt;
+    subdivision.highlight(whole, 0, shining);
+    cut += shining.size() > 1 ? 1 : 0;
+    const geometry::OperationCounts before = subdivision.operations();
+    subdivision.highlight(whole, 1, matt);
+    EXPECT_EQ(matt.size(), 1U);
+    EXPECT_EQ(subdivision.operations().flops(), before.flops());
+  }
+  EXPECT_GT(cut, 5U);
+}
+
 // Light and viewer in one direction, and normals so short that their products vanish.
 TEST_F(SubdivisionTest, HasNoAnswerForNormalsThatNumbersDoNotHold) {
   SetUpParameters p = parameters(ShadingMethod::highlight_subdivision);
