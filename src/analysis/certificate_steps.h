@@ -10,6 +10,8 @@ namespace rastertlm::analysis {
 
 // Edges, depth and normals of the object machine, from corners to words.
 void certify_planes(const run::Inputs::Content& content, const CertifyOptions& options, report::Certificates& all);
+// Words and roots of solids, where the machine has quadric processors.
+void certify_solids(const imogene::Machine& machine, const CertifyOptions& options, report::Certificates& all);
 // From those words to levels, step by step and as a whole.
 void certify_shading(const imogene::Machine& machine, const CertifyOptions& options, report::Certificates& all);
 // The fewest bits of each width of the shading chain.

@@ -13,6 +13,7 @@ report::Certificates certify(const run::Inputs::Content& machine, const CertifyO
   if (const auto* object = std::get_if<imogene::Machine>(&machine.machine)) {
     all.platform = "imogene";
     certify_planes(machine, options, all);
+    certify_solids(*object, options, all);
     certify_shading(*object, options, all);
     certify_widths(*object, options, all);
   } else if (const auto* adaptive = std::get_if<adaptive::Machine>(&machine.machine)) {

@@ -18,7 +18,7 @@ class CertifyCommand : public Command {
   ExitCode run() override;
 
  private:
-  std::vector<std::string> machines_{"configs/machines/imogene.toml", "configs/machines/quadratic.toml",
+  std::vector<std::string> machines_{"configs/machines/imogene_quadrics.toml", "configs/machines/quadratic.toml",
                                      "configs/machines/adaptive.toml"};
   std::vector<std::string> overrides_;
   analysis::CertifyOptions options_;

@@ -33,6 +33,28 @@ TEST(Certificates, HoldForBothArithmetics) {
   }
 }
 
+// By roots of any format, and words with more and fewer fraction bits than a root needs; a root of fewer stages is
+// seen.
+TEST(Certificates, OfSolidsHold) {
+  for (const std::int64_t fraction : {4, 12, 16})
+    for (const auto reading : {object_processor::RootReading::floor, object_processor::RootReading::half_unit}) {
+      imogene::Machine machine;
+      machine.quadric.per_unit = 1;
+      machine.quadric.fraction_bits = fraction;
+      machine.quadric.root_reading = reading;
+      report::Certificates all;
+      certify_solids(machine, {}, all);
+      ASSERT_EQ(all.steps.size(), 3U);
+      for (const report::Certificate& c : all.steps) {
+        EXPECT_TRUE(c.holds()) << c.step << ": " << c.seen << " of " << c.proved;
+        EXPECT_GT(c.seen, 0.9 * c.proved) << c.step;
+      }
+    }
+  report::Certificates none;
+  certify_solids(imogene::Machine(), {}, none);
+  EXPECT_TRUE(none.steps.empty());
+}
+
 // 004, 5.3.3, gives 12 bits to the normal because sqrt(3) delta N is then below a level of 8 bits: it is, with 10 too.
 TEST(Certificates, HaveThePapersBoundOfDiffuseLight) {
   imogene::Machine machine;
