@@ -98,9 +98,9 @@ void SolidFamily::declare(parameter::Table& table) {
   table.choice("family", family_, {"any", "near", "sphere", "thin", "axis", "cap", "saddle", "wrap"},
                {"", "Which solids are drawn at random.", "the catalogue's figures"});
   table.real("least_pixels", least_pixels_, {0.01, 1e6},
-               {"pixels", "Radius of the smallest sphere.", "the catalogue's figures"});
+             {"pixels", "Radius of the smallest sphere.", "the catalogue's figures"});
   table.real("most_pixels", most_pixels_, {0.01, 1e6},
-               {"pixels", "Radius of the largest sphere.", "the catalogue's figures"});
+             {"pixels", "Radius of the largest sphere.", "the catalogue's figures"});
 }
 
 EyeQuadric SolidFamily::Drawn::at(double size) const {

@@ -7,8 +7,8 @@
 
 namespace rastertlm::config {
 
-// "unknown key 'x'; nearest known: 'y'", or that elements of lists there have a key of that name, or the keys known at that place where none is near. `place` is what the path
-// was located as.
+// "unknown key 'x'; nearest known: 'y'", or that elements of lists there have a key of that name, or the keys known at
+// that place where none is near. `place` is what the path was located as.
 std::string unknown_key_message(const std::string& path, const Place& place);
 
 }  // namespace rastertlm::config
