@@ -109,7 +109,8 @@ template <class Visitor>
 void visit(Visitor& v, run::Deadlines& d) {
   v.object("retrace", "the vertical retrace that is left the least", [&](Visitor& o) {
     o.value("available_cycles", {"pixel clocks", kFormula, "of the vertical retrace"}, d.retrace.available_cycles);
-    o.value("boards_cycles", {"pixel clocks", kFormula, "of it that pipeline skew, frame start and the early start of quadrics take"},
+    o.value("boards_cycles",
+            {"pixel clocks", kFormula, "of it that pipeline skew, frame start and the early start of quadrics take"},
             d.retrace.boards_cycles);
     o.value("tables_cycles", {"pixel clocks", kFormula, "that the longest load begun at a retrace takes beside them"},
             d.retrace.tables_cycles);
