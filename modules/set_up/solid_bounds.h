@@ -34,9 +34,9 @@ class SolidBounds {
  public:
   // The forms are those of the solid that `result` draws, which has a root: its part is not `all`. Without `host`, some
   // 2^-46 of what a form is made of at the pixel. Format and result outlive it.
-  SolidBounds(geometry::ScreenQuadric<double> form, std::vector<geometry::ScreenPlane<double>> planes,
+  SolidBounds(const geometry::ScreenQuadric<double>& form, std::vector<geometry::ScreenPlane<double>> planes,
               const QuadricFormat& format, const QuadricSetUp& result, std::optional<HostRounding> host = std::nullopt)
-      : form_(std::move(form)),
+      : form_(form),
         planes_(std::move(planes)),
         format_(format),
         result_(result),
