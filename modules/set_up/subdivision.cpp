@@ -221,7 +221,7 @@ void Subdivision::along_edges(std::size_t light, Part part, std::uint32_t materi
     const auto on_second = second_done ? std::nullopt : inserted(bright, b, material);
     first_done = first_done || !on_first;
     second_done = second_done || !on_second;
-    if (on_first || on_second) part.spare_bits -= 1;
+    part.spare_bits -= 1;
     if (on_first) {
       for_lights_from(light + 1, {{*on_first, a, b}, part.spare_bits}, material, out);
       a = *on_first;
